@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The internal forces of an elastic body, assembled patch by patch.
+#pragma once
+
+#include <softcell/base/block_matrix.h>
+#include <softcell/discretization/discretization.h>
+#include <softcell/mechanics/material.h>
+
+#include <vector>
+
+namespace softcell
+{
+  /// Energy, internal force and tangent of a hyperelastic body on any discretization.
+  ///
+  /// With W the energy density and F = I + du/dX: energy = int W, residual_i = int P : dN_i/dX (Brunet eq. 2.17),
+  /// tangent = d residual / du (eq. 2.27). All members are collective; u needs its ghost values up to date.
+  class Elasticity
+  {
+  public:
+    /// @param materials one per label.
+    Elasticity(const Discretization &discretization, std::vector<Material> materials);
+
+    /// Units: J. @throws InvertedPoint
+    double energy(const Vector &u) const;
+
+    /// Adds the internal force to r. The caller compresses (VectorOperation::add) when all loads are in.
+    /// Units: N. @throws InvertedPoint
+    void add_residual(const Vector &u, Vector &r) const;
+
+    /// Adds the tangent to K; the caller compresses when all loads are in. Units: N/m.
+    void add_tangent(const Vector &u, BlockMatrix &K) const;
+
+    /// Smallest det F over all integration points of the body.
+    double min_jacobian(const Vector &u) const;
+
+    /// Volume of the body as the quadrature sees it. Units: m^3
+    double volume() const;
+
+    const std::vector<Material> &materials() const
+    {
+      return materials_;
+    }
+
+  private:
+    const Discretization &discretization_;
+    std::vector<Material> materials_;
+  };
+} // namespace softcell

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Linear systems with an assembled tangent, by Trilinos or PETSc.
+#pragma once
+
+#include <softcell/base/block_matrix.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace softcell
+{
+  struct LinearSolverParameters
+  {
+    std::string  solver          = "CG";       // CG, direct (MUMPS)
+    std::string  preconditioner  = "AMG";      // none, Jacobi, incomplete Cholesky, AMG
+    std::string  backend         = "Trilinos"; // Trilinos, PETSc
+    double       tolerance       = 1e-8;       // relative to |b|
+    unsigned int max_iterations  = 5000;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// A linear solver that keeps its symbolic work (sparsity, graph) between matrices of the same structure.
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /// Takes the values of the matrix and builds the preconditioner or the factors. The structure must be that of
+    /// the first call.
+    /// @param positions reference positions of the owned nodes, for the six rigid-body modes that AMG keeps.
+    /// @param constrained owned local unknowns whose rows and columns are those of the identity.
+    virtual void set_matrix(const BlockMatrix               &matrix,
+                            const std::vector<Point>        &positions,
+                            const std::vector<unsigned int> &constrained) = 0;
+
+    /// Solves A x = b from x = 0 and returns the iterations (1 for a direct solver). An indefinite matrix (negative
+    /// curvature in CG) ends the iteration with the best x so far.
+    /// @throws NotConverged
+    virtual unsigned int solve(Vector &x, const Vector &b) const = 0;
+  };
+
+  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters);
+} // namespace softcell
