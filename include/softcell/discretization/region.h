@@ -24,6 +24,7 @@ namespace softcell
     {
       return name_;
     }
+    /// Not to be called by several threads at once.
     bool contains(const Point &X, const Direction &normal, unsigned int patch) const;
 
   private:
