@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A law chosen at run time.
+#pragma once
+
+#include <softcell/mechanics/laws.h>
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace softcell
+{
+  /// One of the laws with its parameters, and the density.
+  class Material
+  {
+  public:
+    /// @param model Neo-Hookean, Saint-Venant-Kirchhoff or linear.
+    /// @param young_modulus above 0. Units: Pa
+    /// @param poisson_ratio above -1 and below 0.5.
+    /// @param density not negative. Units: kg/m^3
+    /// @param section of the parameter file that these values come from, for messages.
+    /// @throws BadInput
+    Material(const std::string &model,
+             double young_modulus,
+             double poisson_ratio,
+             double density             = 0,
+             const std::string &section = "Material");
+
+    /// Calls f with the law itself (a NeoHookean<>, ...), so that a loop inside f knows its law at
+    /// compile time.
+    template <class Function>
+    decltype(auto)
+    visit(Function &&f) const
+    {
+      return std::visit(std::forward<Function>(f), law_);
+    }
+
+    /// Units: kg/m^3
+    double
+    density() const
+    {
+      return density_;
+    }
+
+  private:
+    std::variant<NeoHookean<>, SaintVenantKirchhoff<>, LinearElastic<>> law_;
+    double density_;
+  };
+} // namespace softcell

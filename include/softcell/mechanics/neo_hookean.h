@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The compressible Neo-Hookean law; what a law offers is told in laws.h.
+#pragma once
+
+#include <softcell/mechanics/kinematics.h>
+
+#include <cmath>
+
+namespace softcell
+{
+  /// W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2 (Brunet eq. 2.9), for J > 0.
+  template <class Real = double>
+  struct NeoHookean
+  {
+    Real lambda, mu;
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static auto
+    is_admissible(const Number &J)
+    {
+      return J > Number(0);
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Number
+    energy(const Matrix3<Number> &F) const
+    {
+      const Number ln_J = log_J(F);
+      return mu * (trace(green_lagrange_strain(F)) - ln_J) + lambda / 2 * ln_J * ln_J;
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number>
+    first_piola_stress(const Matrix3<Number> &F) const
+    {
+      const Number pressure = lambda * log_J(F) - mu;
+      return mu * F + pressure * transpose(inverse(F));
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number>
+    second_piola_stress(const Matrix3<Number> &F) const
+    {
+      const Number pressure = lambda * log_J(F) - mu;
+      return mu * identity<Number>() + pressure * inverse(right_cauchy_green(F));
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number>
+    cauchy_stress(const Matrix3<Number> &F) const
+    {
+      return softcell::cauchy_stress(first_piola_stress(F), F);
+    }
+
+    /// dP = mu dF + (mu - lambda ln J) F^-T dF^T F^-T + lambda (F^-T : dF) F^-T.
+    template <class Number>
+    struct Linearisation
+    {
+      Real mu, lambda;
+      Number factor; // mu - lambda ln J
+      Matrix3<Number> F_inv_T;
+
+      template <class Change>
+      SOFTCELL_HOST_DEVICE Matrix3<Change>
+      operator()(const Matrix3<Change> &dF) const
+      {
+        const Change divergence = lambda * double_contraction(F_inv_T, dF);
+        return mu * dF + factor * (F_inv_T * transpose(dF) * F_inv_T) + divergence * F_inv_T;
+      }
+
+      /// With g = dN/dX and its push forward h = F^-T g, row a of dP is
+      /// delta_ab mu g + (mu - lambda ln J) h_a F^-T_b + lambda h_b F^-T_a.
+      template <class Change>
+      SOFTCELL_HOST_DEVICE Matrix3<Change>
+      operator()(const NodalGradient<Change> &dF) const
+      {
+        const int b = dF.component;
+        Matrix3<Change> dP;
+        const Change h_b = lambda * dot(F_inv_T, b, dF.gradient);
+        for (int a = 0; a < 3; ++a)
+        {
+          const Change h_a = factor * dot(F_inv_T, a, dF.gradient);
+          for (int A = 0; A < 3; ++A)
+            dP(a, A) = h_a * F_inv_T(b, A) + h_b * F_inv_T(a, A);
+        }
+        for (int A = 0; A < 3; ++A)
+          dP(b, A) += mu * dF.gradient[A];
+        return dP;
+      }
+    };
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Linearisation<Number>
+    linearisation(const Matrix3<Number> &F) const
+    {
+      return {mu, lambda, mu - lambda * log_J(F), transpose(inverse(F))};
+    }
+
+  private:
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Number
+    log_J(const Matrix3<Number> &F)
+    {
+      using std::log1p;
+      return log1p(volume_change(F));
+    }
+  };
+} // namespace softcell
