@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The weighted cell rule: the cell's own Gauss points, weighted by what is filled around them.
+#pragma once
+
+#include <softcell/quadrature/cut_rule.h>
+#include <softcell/quadrature/label_list.h>
+
+#include <deal.II/base/quadrature.h>
+
+namespace softcell
+{
+  /// The (degree + 1)^3 Gauss points of the cell, each weight times the filled fraction v of the
+  /// point's part.
+  ///
+  /// The one-dimensional Gauss weights, laid end to end, part the unit interval; their products
+  /// part the cell into one box per point, with the point in it and the point's weight as its
+  /// volume: at degree 1, the cell's octants. The fraction is what the octree of `levels` halvings
+  /// counts, so that the volume of a cell is at degree 1 that of FiniteCell. With alpha the factor
+  /// is v + alpha (1 - v), and without it a weight may be 0. A point takes the label of most of
+  /// what fills its part. With 0 levels all that holds some of the body counts as full: the sparse
+  /// grid. Source: Brunet sec. 4.5, eq. 4.12-4.13 with v as a fraction, and p. 110 on the sparse
+  /// grid.
+  class WeightedCell : public CutRule
+  {
+  public:
+    WeightedCell(const CutParameters &parameters, unsigned int degree, const Body &body);
+
+    double add(const Box &cell) override;
+    bool
+    has_cell_points() const override
+    {
+      return true;
+    }
+    void points(unsigned int index, CutPoints &result) const override;
+
+  private:
+    /// The filled fraction of a point's part, and the label of most of that.
+    struct Filled
+    {
+      double fraction;
+      unsigned char label;
+    };
+    Filled filled(const Box &part, const Point &gauss_point) const;
+
+    const Body &body_;
+    const CutParameters parameters_;
+    const dealii::Quadrature<3> gauss_;
+    std::vector<Box> parts_;      // of the unit cube, one per Gauss point
+    std::vector<double> weights_; // (n_cells, n_points)
+    LabelList labels_;
+  };
+} // namespace softcell

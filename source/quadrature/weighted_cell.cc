@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/quadrature/octree.h>
+#include <softcell/quadrature/weighted_cell.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace softcell
+{
+  WeightedCell::WeightedCell(const CutParameters &parameters,
+                             const unsigned int degree,
+                             const Body &body)
+      : body_(body), parameters_(parameters), gauss_(dealii::QGauss<3>(degree + 1))
+  {
+    Assert(parameters.levels <= max_levels, dealii::ExcInternalError());
+    const unsigned int n = degree + 1;
+    const dealii::QGauss<1> line(n);
+    std::vector<double> ends(1, 0.);
+    for (const double w : line.get_weights())
+      ends.push_back(ends.back() + w);
+    ends.back() = 1;
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          parts_.push_back(
+            Box({Point(ends[i], ends[j], ends[k]), Point(ends[i + 1], ends[j + 1], ends[k + 1])}));
+  }
+
+  double
+  WeightedCell::add(const Box &cell)
+  {
+    const double cell_volume = cell.volume();
+    double volume            = 0;
+
+    if (parameters_.levels == 0 && body_.filled_volume(cell) > 1e-9 * cell_volume)
+      volume = cell_volume;
+    std::vector<unsigned char> labels;
+    for (unsigned int i = 0; i < gauss_.size(); ++i)
+    {
+      const Point X = cell.unit_to_real(gauss_.point(i));
+      double factor = 1;
+      labels.push_back(body_.label(X));
+      if (parameters_.levels > 0)
+      {
+        const auto &[lower, upper] = parts_[i].get_boundary_points();
+        const Filled v = filled(Box({cell.unit_to_real(lower), cell.unit_to_real(upper)}), X);
+        factor         = v.fraction + parameters_.alpha * (1 - v.fraction);
+        labels.back()  = v.label;
+        volume += v.fraction * gauss_.weight(i) * cell_volume;
+      }
+      weights_.push_back(factor * gauss_.weight(i) * cell_volume);
+    }
+    labels_.add(labels);
+    return volume;
+  }
+
+  WeightedCell::Filled
+  WeightedCell::filled(const Box &part, const Point &gauss_point) const
+  {
+    double fraction = 0;
+    std::vector<double> fraction_of(body_.n_labels(), 0.);
+    const bool one_label = fraction_of.size() == 1;
+    visit_leaves(body_, part, parameters_.levels - 1,
+                 [&](const Box &leaf, const Side side, const LeafCode) {
+                   if (side == Side::outside)
+                     return;
+                   const double leaf_fraction = leaf.volume() / part.volume();
+                   if (side == Side::inside && one_label)
+                   {
+                     fraction += leaf_fraction;
+                     return;
+                   }
+                   for (unsigned int i = 0; i < gauss_.size(); ++i)
+                   {
+                     const Point X = leaf.unit_to_real(gauss_.point(i));
+                     if (side == Side::cut && !body_.contains(X))
+                       continue;
+                     fraction += gauss_.weight(i) * leaf_fraction;
+                     if (!one_label)
+                       fraction_of[body_.label(X)] += gauss_.weight(i) * leaf_fraction;
+                   }
+                 });
+    if (fraction == 0 || one_label)
+      return {fraction, static_cast<unsigned char>(body_.label(gauss_point))};
+    return {fraction,
+            static_cast<unsigned char>(std::max_element(fraction_of.begin(), fraction_of.end()) -
+                                       fraction_of.begin())};
+  }
+
+  void
+  WeightedCell::points(const unsigned int index, CutPoints &result) const
+  {
+    const double *begin = weights_.data() + std::size_t(index) * gauss_.size();
+    result.weights.assign(begin, begin + gauss_.size());
+    const auto labels = labels_[index];
+    result.labels.assign(labels.begin(), labels.end());
+  }
+} // namespace softcell
