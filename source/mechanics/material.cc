@@ -12,11 +12,10 @@ namespace softcell
   namespace
   {
     /// @param is_good false for NaN too.
-    void
-    check(const bool is_good,
-          const std::string &entry,
-          const double found,
-          const std::string &allowed)
+    void check(const bool is_good,
+               const std::string &entry,
+               const double found,
+               const std::string &allowed)
     {
       if (is_good)
         return;

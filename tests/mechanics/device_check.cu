@@ -4,12 +4,11 @@
 #include <softcell/mechanics/laws.h>
 
 template <class Law>
-__global__ void
-stress_and_tangent(const Law law,
-                   const softcell::Matrix3<float> *F,
-                   const softcell::Matrix3<float> *dF,
-                   softcell::Matrix3<float> *P,
-                   softcell::Matrix3<float> *dP)
+__global__ void stress_and_tangent(const Law law,
+                                   const softcell::Matrix3<float> *F,
+                                   const softcell::Matrix3<float> *dF,
+                                   softcell::Matrix3<float> *P,
+                                   softcell::Matrix3<float> *dP)
 {
   const int i = blockIdx.x * blockDim.x + threadIdx.x;
   if (!law.is_admissible(determinant(F[i])))

@@ -13,8 +13,7 @@
 namespace Sacado::Fad::Exp
 {
   template <class Storage>
-  GeneralFad<Storage>
-  log1p(const GeneralFad<Storage> &x)
+  GeneralFad<Storage> log1p(const GeneralFad<Storage> &x)
   {
     GeneralFad<Storage> y = log(1 + x);
     y.val()               = std::log1p(x.val());
@@ -35,8 +34,7 @@ namespace
   const Matrix3<double> dF2{{-0.2, 0.4, 0.6, 0.3, -0.8, 0.15, 0.5, -0.1, 0.35}};
 
   // Turns by 120 degrees about (1, 1, 1), then by the angle a about z.
-  Matrix3<double>
-  rotation(const double a)
+  Matrix3<double> rotation(const double a)
   {
     const Matrix3<double> cyclic{{0, 0, 1, 1, 0, 0, 0, 1, 0}};
     const Matrix3<double> about_z{
@@ -44,8 +42,7 @@ namespace
     return about_z * cyclic;
   }
 
-  void
-  expect_near(const Matrix3<double> &A, const Matrix3<double> &B, const double tolerance)
+  void expect_near(const Matrix3<double> &A, const Matrix3<double> &B, const double tolerance)
   {
     for (int k = 0; k < 9; ++k)
       EXPECT_NEAR(A.entries[k], B.entries[k], tolerance) << "entry " << k;

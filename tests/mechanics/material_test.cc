@@ -15,19 +15,17 @@ namespace
   using softcell::Material;
 
   // P_11 of a stretch by 2 along x, which tells the laws apart.
-  double
-  stress(const Material &material)
+  double stress(const Material &material)
   {
     const softcell::Matrix3<double> F{{2, 0, 0, 0, 1, 0, 0, 0, 1}};
     return material.visit([&](const auto &law) { return law.first_piola_stress(F)(0, 0); });
   }
 
-  std::string
-  complaint(const std::string &model,
-            const double E,
-            const double nu,
-            const double density,
-            const std::string &section = "Material")
+  std::string complaint(const std::string &model,
+                        const double E,
+                        const double nu,
+                        const double density,
+                        const std::string &section = "Material")
   {
     try
     {

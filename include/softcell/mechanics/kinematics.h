@@ -17,24 +17,21 @@ namespace softcell
 
   /// du/dX = F - I.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  displacement_gradient(const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> displacement_gradient(const Matrix3<Number> &F)
   {
     return F - identity<Number>();
   }
 
   /// C = F^T F.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  right_cauchy_green(const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> right_cauchy_green(const Matrix3<Number> &F)
   {
     return transpose(F) * F;
   }
 
   /// E = (C - I) / 2, written in du/dX so that small strains keep their digits.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  green_lagrange_strain(const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> green_lagrange_strain(const Matrix3<Number> &F)
   {
     const Matrix3<Number> H = displacement_gradient(F), Ht = transpose(H);
     const Number two(2);
@@ -46,8 +43,7 @@ namespace softcell
 
   /// The small strain (F + F^T) / 2 - I.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  small_strain(const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> small_strain(const Matrix3<Number> &F)
   {
     const Matrix3<Number> H = displacement_gradient(F);
     const Number two(2);
@@ -60,8 +56,7 @@ namespace softcell
   /// J - 1 = det F - 1 by the invariants of du/dX, so that small changes of volume keep their
   /// digits.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Number
-  volume_change(const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Number volume_change(const Matrix3<Number> &F)
   {
     const Matrix3<Number> H = displacement_gradient(F);
     const Number minors     = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0) + H(1, 1) * H(2, 2) -
@@ -71,8 +66,8 @@ namespace softcell
 
   /// Cauchy stress P F^T / J from the first Piola-Kirchhoff stress.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  cauchy_stress(const Matrix3<Number> &P, const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &P,
+                                                     const Matrix3<Number> &F)
   {
     const Number s = Number(1) / determinant(F);
     return s * (P * transpose(F));

@@ -23,8 +23,7 @@ namespace softcell
 {
   /// A law from Young modulus E (Units: Pa) and Poisson ratio nu (Brunet sec. 2.3.1).
   template <template <class> class Law, class Real>
-  SOFTCELL_HOST_DEVICE Law<Real>
-  make_law(const Real E, const Real nu)
+  SOFTCELL_HOST_DEVICE Law<Real> make_law(const Real E, const Real nu)
   {
     return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
   }

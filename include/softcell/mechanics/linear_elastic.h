@@ -14,15 +14,13 @@ namespace softcell
     Real lambda, mu;
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE static auto
-    is_admissible(const Number &J)
+    SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
     {
       return J == J;
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Number
-    energy(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
       const Matrix3<Number> e = small_strain(F);
       const Number tr_e       = trace(e);
@@ -30,8 +28,7 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    first_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
     {
       const Matrix3<Number> e = small_strain(F);
       const Number pressure   = lambda * trace(e);
@@ -39,15 +36,13 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    second_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
     {
       return first_piola_stress(F);
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    cauchy_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return first_piola_stress(F);
     }
@@ -58,16 +53,14 @@ namespace softcell
       Real mu, lambda;
 
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const Matrix3<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const Matrix3<Change> &dF) const
       {
         const Change pressure = lambda * trace(dF);
         return pressure * identity<Change>() + mu * (dF + transpose(dF));
       }
 
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const NodalGradient<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const NodalGradient<Change> &dF) const
       {
         const int b = dF.component;
         Matrix3<Change> dP{};
@@ -83,8 +76,7 @@ namespace softcell
     };
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation
-    linearisation(const Matrix3<Number> &) const
+    SOFTCELL_HOST_DEVICE Linearisation linearisation(const Matrix3<Number> &) const
     {
       return {mu, lambda};
     }

@@ -29,15 +29,13 @@ namespace softcell
     /// Calls f with the law itself (a NeoHookean<>, ...), so that a loop inside f knows its law at
     /// compile time.
     template <class Function>
-    decltype(auto)
-    visit(Function &&f) const
+    decltype(auto) visit(Function &&f) const
     {
       return std::visit(std::forward<Function>(f), law_);
     }
 
     /// Units: kg/m^3
-    double
-    density() const
+    double density() const
     {
       return density_;
     }

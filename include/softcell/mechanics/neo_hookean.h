@@ -15,39 +15,34 @@ namespace softcell
     Real lambda, mu;
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE static auto
-    is_admissible(const Number &J)
+    SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
     {
       return J > Number(0);
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Number
-    energy(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
       const Number ln_J = log_J(F);
       return mu * (trace(green_lagrange_strain(F)) - ln_J) + lambda / 2 * ln_J * ln_J;
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    first_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
     {
       const Number pressure = lambda * log_J(F) - mu;
       return mu * F + pressure * transpose(inverse(F));
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    second_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
     {
       const Number pressure = lambda * log_J(F) - mu;
       return mu * identity<Number>() + pressure * inverse(right_cauchy_green(F));
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    cauchy_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return softcell::cauchy_stress(first_piola_stress(F), F);
     }
@@ -61,8 +56,7 @@ namespace softcell
       Matrix3<Number> F_inv_T;
 
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const Matrix3<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const Matrix3<Change> &dF) const
       {
         const Change divergence = lambda * double_contraction(F_inv_T, dF);
         return mu * dF + factor * (F_inv_T * transpose(dF) * F_inv_T) + divergence * F_inv_T;
@@ -71,8 +65,7 @@ namespace softcell
       /// With g = dN/dX and its push forward h = F^-T g, row a of dP is
       /// delta_ab mu g + (mu - lambda ln J) h_a F^-T_b + lambda h_b F^-T_a.
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const NodalGradient<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const NodalGradient<Change> &dF) const
       {
         const int b = dF.component;
         Matrix3<Change> dP;
@@ -90,16 +83,14 @@ namespace softcell
     };
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation<Number>
-    linearisation(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
     {
       return {mu, lambda, mu - lambda * log_J(F), transpose(inverse(F))};
     }
 
   private:
     template <class Number>
-    SOFTCELL_HOST_DEVICE static Number
-    log_J(const Matrix3<Number> &F)
+    SOFTCELL_HOST_DEVICE static Number log_J(const Matrix3<Number> &F)
     {
       using std::log1p;
       return log1p(volume_change(F));

@@ -14,15 +14,13 @@ namespace softcell
     Real lambda, mu;
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE static auto
-    is_admissible(const Number &J)
+    SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
     {
       return J > Number(0);
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Number
-    energy(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
       const Matrix3<Number> E = green_lagrange_strain(F);
       const Number tr_E       = trace(E);
@@ -30,8 +28,7 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    second_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
     {
       const Matrix3<Number> E = green_lagrange_strain(F);
       const Number pressure   = lambda * trace(E);
@@ -39,15 +36,13 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    first_piola_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
     {
       return F * second_piola_stress(F);
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number>
-    cauchy_stress(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return softcell::cauchy_stress(first_piola_stress(F), F);
     }
@@ -60,8 +55,7 @@ namespace softcell
       Matrix3<Number> F, S, FFt;
 
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const Matrix3<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const Matrix3<Change> &dF) const
       {
         const Matrix3<Change> FtdF     = transpose(F) * dF;
         const Change pressure          = lambda * trace(FtdF);
@@ -72,8 +66,7 @@ namespace softcell
       /// With g = dN/dX and its push forward q = F g, row a of dP is
       /// delta_ab S g + lambda q_b F_a + mu (q_a F_b + (F F^T)_ab g).
       template <class Change>
-      SOFTCELL_HOST_DEVICE Matrix3<Change>
-      operator()(const NodalGradient<Change> &dF) const
+      SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const NodalGradient<Change> &dF) const
       {
         const int b = dF.component;
         Matrix3<Change> dP;
@@ -92,8 +85,7 @@ namespace softcell
     };
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation<Number>
-    linearisation(const Matrix3<Number> &F) const
+    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
     {
       return {mu, lambda, F, second_piola_stress(F), F * transpose(F)};
     }

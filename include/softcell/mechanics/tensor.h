@@ -19,13 +19,11 @@ namespace softcell
   {
     Number entries[9];
 
-    SOFTCELL_HOST_DEVICE Number &
-    operator()(const int i, const int j)
+    SOFTCELL_HOST_DEVICE Number &operator()(const int i, const int j)
     {
       return entries[3 * i + j];
     }
-    SOFTCELL_HOST_DEVICE const Number &
-    operator()(const int i, const int j) const
+    SOFTCELL_HOST_DEVICE const Number &operator()(const int i, const int j) const
     {
       return entries[3 * i + j];
     }
@@ -37,23 +35,20 @@ namespace softcell
   using Wider = std::conditional_t<std::is_convertible_v<A, B>, B, A>;
 
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  identity()
+  SOFTCELL_HOST_DEVICE Matrix3<Number> identity()
   {
     const Number one(1), zero(0);
     return {{one, zero, zero, zero, one, zero, zero, zero, one}};
   }
 
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  transpose(const Matrix3<Number> &A)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> transpose(const Matrix3<Number> &A)
   {
     return {{A(0, 0), A(1, 0), A(2, 0), A(0, 1), A(1, 1), A(2, 1), A(0, 2), A(1, 2), A(2, 2)}};
   }
 
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>>
-  operator+(const Matrix3<A> &a, const Matrix3<B> &b)
+  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>> operator+(const Matrix3<A> &a, const Matrix3<B> &b)
   {
     Matrix3<Wider<A, B>> sum;
     for (int k = 0; k < 9; ++k)
@@ -62,8 +57,7 @@ namespace softcell
   }
 
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>>
-  operator-(const Matrix3<A> &a, const Matrix3<B> &b)
+  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>> operator-(const Matrix3<A> &a, const Matrix3<B> &b)
   {
     Matrix3<Wider<A, B>> difference;
     for (int k = 0; k < 9; ++k)
@@ -72,8 +66,7 @@ namespace softcell
   }
 
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>>
-  operator*(const A &a, const Matrix3<B> &b)
+  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>> operator*(const A &a, const Matrix3<B> &b)
   {
     Matrix3<Wider<A, B>> product;
     for (int k = 0; k < 9; ++k)
@@ -82,8 +75,7 @@ namespace softcell
   }
 
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>>
-  operator*(const Matrix3<A> &a, const Matrix3<B> &b)
+  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>> operator*(const Matrix3<A> &a, const Matrix3<B> &b)
   {
     Matrix3<Wider<A, B>> product;
     for (int i = 0; i < 3; ++i)
@@ -93,16 +85,14 @@ namespace softcell
   }
 
   template <class Number>
-  SOFTCELL_HOST_DEVICE Number
-  trace(const Matrix3<Number> &A)
+  SOFTCELL_HOST_DEVICE Number trace(const Matrix3<Number> &A)
   {
     return A(0, 0) + A(1, 1) + A(2, 2);
   }
 
   /// A : B = sum_ij A_ij B_ij.
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Wider<A, B>
-  double_contraction(const Matrix3<A> &a, const Matrix3<B> &b)
+  SOFTCELL_HOST_DEVICE Wider<A, B> double_contraction(const Matrix3<A> &a, const Matrix3<B> &b)
   {
     Wider<A, B> sum = a.entries[0] * b.entries[0];
     for (int k = 1; k < 9; ++k)
@@ -112,15 +102,13 @@ namespace softcell
 
   /// Row i of A times the vector v.
   template <class A, class B>
-  SOFTCELL_HOST_DEVICE Wider<A, B>
-  dot(const Matrix3<A> &a, const int i, const B *v)
+  SOFTCELL_HOST_DEVICE Wider<A, B> dot(const Matrix3<A> &a, const int i, const B *v)
   {
     return a(i, 0) * v[0] + a(i, 1) * v[1] + a(i, 2) * v[2];
   }
 
   template <class Number>
-  SOFTCELL_HOST_DEVICE Number
-  determinant(const Matrix3<Number> &A)
+  SOFTCELL_HOST_DEVICE Number determinant(const Matrix3<Number> &A)
   {
     return A(0, 0) * (A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1)) -
            A(0, 1) * (A(1, 0) * A(2, 2) - A(1, 2) * A(2, 0)) +
@@ -129,8 +117,7 @@ namespace softcell
 
   /// The inverse of a matrix whose determinant is not 0.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number>
-  inverse(const Matrix3<Number> &A)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> inverse(const Matrix3<Number> &A)
   {
     const Number s = Number(1) / determinant(A);
     Matrix3<Number> B;

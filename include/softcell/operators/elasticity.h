@@ -10,10 +10,18 @@
 
 namespace softcell
 {
+  /// Averages over the material of each patch of this rank, for pictures.
+  struct PatchAverages
+  {
+    std::vector<double> von_mises; // (n_patches) of the Cauchy stress. Units: Pa
+    std::vector<double> jacobian;  // (n_patches) det F. Units: 1
+  };
+
   /// Energy, internal force and tangent of a hyperelastic body on any discretization.
   ///
-  /// With W the energy density and F = I + du/dX: energy = int W, residual_i = int P : dN_i/dX (Brunet eq. 2.17),
-  /// tangent = d residual / du (eq. 2.27). All members are collective; u needs its ghost values up to date.
+  /// With W the energy density and F = I + du/dX: energy = int W, residual_i = int P : dN_i/dX
+  /// (Brunet eq. 2.17), tangent = d residual / du (eq. 2.27). All members are collective; u needs
+  /// its ghost values up to date.
   class Elasticity
   {
   public:
@@ -23,12 +31,19 @@ namespace softcell
     /// Units: J. @throws InvertedPoint
     double energy(const Vector &u) const;
 
-    /// Adds the internal force to r. The caller compresses (VectorOperation::add) when all loads are in.
-    /// Units: N. @throws InvertedPoint
+    /// Adds the internal force to r. The caller compresses (VectorOperation::add) when all loads
+    /// are in. Units: N. @throws InvertedPoint
     void add_residual(const Vector &u, Vector &r) const;
 
-    /// Adds the tangent to K; the caller compresses when all loads are in. Units: N/m.
+    /// Adds the tangent to K; the caller compresses when all loads are in.
+    /// Units: N/m. @throws InvertedPoint
     void add_tangent(const Vector &u, BlockMatrix &K) const;
+
+    /// The node lists of this rank's patches, whose unknowns the tangent couples: for making K.
+    std::vector<std::vector<unsigned int>> couplings() const;
+
+    /// Points where the law has no value count as free of stress.
+    PatchAverages averages(const Vector &u) const;
 
     /// Smallest det F over all integration points of the body.
     double min_jacobian(const Vector &u) const;
@@ -42,6 +57,9 @@ namespace softcell
     }
 
   private:
+    template <class Function>
+    void for_each_patch(const Function &function) const;
+
     const Discretization &discretization_;
     std::vector<Material> materials_;
   };

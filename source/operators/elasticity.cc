@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The internal forces of an elastic body, assembled patch by patch.
+
+#include <softcell/operators/elasticity.h>
+
+#include "patch_kernels.h"
+
+#include <softcell/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+
+namespace softcell
+{
+  namespace
+  {
+    /// Calls visit(law, point, F) for every point of the patch that has a weight and whose F the
+    /// law accepts. Returns the number of the others that have a weight.
+    template <class Visit>
+    unsigned int for_each_point(const DeformedPatch &deformed,
+                                const std::vector<Material> &materials,
+                                const Visit &visit)
+    {
+      const Patch &patch      = deformed.patch();
+      unsigned int n_inverted = 0;
+      for (unsigned int begin = 0, end; begin < patch.n_points(); begin = end)
+      {
+        const unsigned int label = patch.label(begin);
+        AssertIndexRange(label, materials.size());
+        end = patch.labels.size() == 1 ? patch.n_points() : begin + 1;
+        while (end < patch.n_points() && patch.label(end) == label)
+          ++end;
+        materials[label].visit([&](const auto &law) {
+          for (unsigned int point = begin; point < end; ++point)
+            if (patch.weights[point] != 0)
+            {
+              const Matrix3<double> F = deformed.deformation_gradient(point);
+              if (law.is_admissible(determinant(F)))
+                visit(law, point, F);
+              else
+                ++n_inverted;
+            }
+        });
+      }
+      return n_inverted;
+    }
+
+    void throw_if_inverted(const unsigned int n_inverted, const MPI_Comm communicator)
+    {
+      if (const auto n = dealii::Utilities::MPI::sum(n_inverted, communicator); n > 0)
+        throw InvertedPoint(std::to_string(n) +
+                            (n == 1 ? " integration point is" : " integration points are") +
+                            " turned inside out (J <= 0).");
+    }
+
+    double von_mises(const Matrix3<double> &sigma)
+    {
+      const double p    = trace(sigma) / 3;
+      Matrix3<double> s = sigma;
+      for (int i = 0; i < 3; ++i)
+        s(i, i) -= p;
+      return std::sqrt(1.5 * double_contraction(s, s));
+    }
+  } // namespace
+
+  Elasticity::Elasticity(const Discretization &discretization, std::vector<Material> materials)
+      : discretization_(discretization), materials_(std::move(materials))
+  {
+  }
+
+  /// Calls function(i, patch) for every patch of this rank.
+  template <class Function>
+  void Elasticity::for_each_patch(const Function &function) const
+  {
+    PatchStorage storage;
+    for (unsigned int i = 0; i < discretization_.n_patches(); ++i)
+      function(i, discretization_.patch(i, storage));
+  }
+
+  double Elasticity::energy(const Vector &u) const
+  {
+    double energy           = 0;
+    unsigned int n_inverted = 0;
+    DeformedPatch deformed;
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      deformed.reinit(patch, u);
+      n_inverted +=
+        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
+          energy += patch.weights[point] * law.energy(F);
+        });
+    });
+    throw_if_inverted(n_inverted, discretization_.communicator());
+    return dealii::Utilities::MPI::sum(energy, discretization_.communicator());
+  }
+
+  void Elasticity::add_residual(const Vector &u, Vector &r) const
+  {
+    unsigned int n_inverted = 0;
+    DeformedPatch deformed;
+    PatchResidual residual;
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      deformed.reinit(patch, u);
+      residual.reinit(deformed);
+      n_inverted +=
+        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
+          residual.add(law, deformed, point, F);
+        });
+      residual.scatter(patch.nodes, r);
+    });
+    throw_if_inverted(n_inverted, discretization_.communicator());
+  }
+
+  void Elasticity::add_tangent(const Vector &u, BlockMatrix &K) const
+  {
+    unsigned int n_inverted = 0;
+    DeformedPatch deformed;
+    PatchTangent tangent;
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      deformed.reinit(patch, u);
+      tangent.reinit(deformed);
+      n_inverted +=
+        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
+          tangent.add(law, deformed, point, F);
+        });
+      K.add(patch.nodes, tangent.values(patch.n_nodes()));
+    });
+    throw_if_inverted(n_inverted, discretization_.communicator());
+  }
+
+  std::vector<std::vector<unsigned int>> Elasticity::couplings() const
+  {
+    std::vector<std::vector<unsigned int>> lists;
+    lists.reserve(discretization_.n_patches());
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      lists.emplace_back(patch.nodes.begin(), patch.nodes.end());
+    });
+    return lists;
+  }
+
+  PatchAverages Elasticity::averages(const Vector &u) const
+  {
+    const unsigned int n = discretization_.n_patches();
+    PatchAverages averages{std::vector<double>(n, 0.), std::vector<double>(n, 1.)};
+    DeformedPatch deformed;
+    for_each_patch([&](const unsigned int i, const Patch &patch) {
+      double volume = 0, stress = 0, deformed_volume = 0;
+      deformed.reinit(patch, u);
+      for (unsigned int point = 0; point < patch.n_points(); ++point)
+        if (const double weight = patch.weights[point]; weight != 0)
+        {
+          volume += weight;
+          deformed_volume += weight * determinant(deformed.deformation_gradient(point));
+        }
+      for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
+        stress += patch.weights[point] * von_mises(law.cauchy_stress(F));
+      });
+      if (volume != 0)
+      {
+        averages.von_mises[i] = stress / volume;
+        averages.jacobian[i]  = deformed_volume / volume;
+      }
+    });
+    return averages;
+  }
+
+  double Elasticity::min_jacobian(const Vector &u) const
+  {
+    double smallest = std::numeric_limits<double>::max();
+    DeformedPatch deformed;
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      deformed.reinit(patch, u);
+      for (unsigned int point = 0; point < patch.n_points(); ++point)
+        if (patch.weights[point] != 0)
+          smallest = std::min(smallest, determinant(deformed.deformation_gradient(point)));
+    });
+    return dealii::Utilities::MPI::min(smallest, discretization_.communicator());
+  }
+
+  double Elasticity::volume() const
+  {
+    double volume = 0;
+    for_each_patch([&](unsigned int, const Patch &patch) {
+      for (const double weight : patch.weights)
+        volume += weight;
+    });
+    return dealii::Utilities::MPI::sum(volume, discretization_.communicator());
+  }
+} // namespace softcell
