@@ -14,33 +14,49 @@ namespace softcell
 {
   struct LinearSolverParameters
   {
-    std::string  solver          = "CG";       // CG, direct (MUMPS)
-    std::string  preconditioner  = "AMG";      // none, Jacobi, incomplete Cholesky, AMG
-    std::string  backend         = "Trilinos"; // Trilinos, PETSc
-    double       tolerance       = 1e-8;       // relative to |b|
-    unsigned int max_iterations  = 5000;
+    std::string solver          = "CG";       // CG, direct (MUMPS)
+    std::string preconditioner  = "AMG";      // none, Jacobi, incomplete Cholesky, AMG
+    std::string backend         = "Trilinos"; // Trilinos, PETSc
+    double tolerance            = 1e-8;       // relative to |b|
+    unsigned int max_iterations = 5000;
 
+    /// Declares the entries in the section that is open, `Solver`.
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// A linear solver that keeps its symbolic work (sparsity, graph) between matrices of the same structure.
+  /// A linear solver that keeps its symbolic work (sparsity, graph) between matrices of the same
+  /// structure.
+  ///
+  /// The conjugate gradients and the product with the matrix are our own, the same for both
+  /// backends. These supply incomplete factors and multigrid; MUMPS comes through PETSc with
+  /// either.
   class LinearSolver
   {
   public:
     virtual ~LinearSolver() = default;
 
-    /// Takes the values of the matrix and builds the preconditioner or the factors. The structure must be that of
-    /// the first call.
-    /// @param positions reference positions of the owned nodes, for the six rigid-body modes that AMG keeps.
-    /// @param constrained owned local unknowns whose rows and columns are those of the identity.
-    virtual void set_matrix(const BlockMatrix               &matrix,
-                            const std::vector<Point>        &positions,
+    /// Takes the values of the matrix and builds the preconditioner or the factors. The structure
+    /// must be that of the first call. The matrix is looked at by solve(): keep it, unchanged,
+    /// until then.
+    /// @param matrix symmetric.
+    /// @param positions reference positions of the owned nodes (and perhaps of more), for the six
+    /// rigid-body modes
+    ///                  that AMG keeps.
+    /// @param constrained owned local unknowns whose rows and columns are those of the identity;
+    /// ghosts may follow.
+    /// @throws NotConverged if a factorisation breaks down
+    virtual void set_matrix(const BlockMatrix &matrix,
+                            const std::vector<Point> &positions,
                             const std::vector<unsigned int> &constrained) = 0;
 
-    /// Solves A x = b from x = 0 and returns the iterations (1 for a direct solver). An indefinite matrix (negative
-    /// curvature in CG) ends the iteration with the best x so far.
-    /// @throws NotConverged
+    /// Solves A x = b from x = 0 and returns the iterations (1 for a direct solver). An indefinite
+    /// matrix (negative curvature in CG) ends the iteration with the best x so far, which is a
+    /// direction of descent of the energy x.Ax / 2 - x.b. Ghost values of x are not updated.
+    /// @throws NotConverged, also where a number is no longer finite
     virtual unsigned int solve(Vector &x, const Vector &b) const = 0;
+
+    /// |b - A x| / |b| after each iteration of the last solve().
+    virtual const std::vector<double> &history() const = 0;
   };
 
   std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters);

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Conjugate gradients and what does not depend on the backend.
+
+#include <softcell/solvers/linear_solver.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/solvers/approximate_inverse.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/partitioner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+namespace softcell
+{
+  namespace
+  {
+    std::string
+    in_short(const double number)
+    {
+      std::ostringstream text;
+      text.precision(2);
+      text << number;
+      return text.str();
+    }
+
+    class Jacobi : public ApproximateInverse
+    {
+    public:
+      void
+      set_matrix(const BlockMatrix &matrix,
+                 const std::vector<Point> & /*positions*/,
+                 const std::vector<unsigned int> & /*constrained*/) override
+      {
+        const Partitioner &unknowns = *matrix.partitioner();
+        const unsigned int n_owned  = unknowns.locally_owned_size() / 3;
+        inverse_diagonal_.resize(3 * n_owned);
+        for (unsigned int row = 0; row < n_owned; ++row)
+        {
+          const std::size_t begin  = matrix.row_start()[row];
+          const std::size_t length = matrix.row_start()[row + 1] - begin;
+          const auto columns       = matrix.columns().begin() + begin;
+          const std::size_t diagonal =
+            std::lower_bound(columns, columns + length, unknowns.local_range().first / 3 + row) -
+            columns;
+          for (unsigned int a = 0; a < 3; ++a)
+          {
+            // Positive even where an indefinite matrix has a negative one; 1 in an empty row.
+            const double entry =
+              std::abs(matrix.values()[9 * begin + (a * length + diagonal) * 3 + a]);
+            inverse_diagonal_[3 * row + a] = entry > 0 ? 1 / entry : 1.;
+          }
+        }
+      }
+
+      void
+      vmult(Vector &y, const Vector &x) const override
+      {
+        std::transform(inverse_diagonal_.begin(), inverse_diagonal_.end(), x.begin(), y.begin(),
+                       std::multiplies<>());
+      }
+
+    private:
+      std::vector<double> inverse_diagonal_;
+    };
+
+    class DirectSolver : public LinearSolver
+    {
+    public:
+      void
+      set_matrix(const BlockMatrix &matrix,
+                 const std::vector<Point> &positions,
+                 const std::vector<unsigned int> &constrained) override
+      {
+        matrix_ = &matrix;
+        factors_->set_matrix(matrix, positions, constrained);
+      }
+
+      unsigned int
+      solve(Vector &x, const Vector &b) const override
+      {
+        x.zero_out_ghost_values();
+        factors_->vmult(x, b);
+        Vector Ax(matrix_->partitioner());
+        matrix_->vmult(Ax, x);
+        const double b_norm = b.l2_norm();
+        Ax -= b;
+        history_.assign(1, b_norm == 0 ? Ax.l2_norm() : Ax.l2_norm() / b_norm);
+        if (!(history_[0] <= acceptable_residual)) // so written that a NaN fails
+          throw NotConverged("the direct solver leaves a relative residual of " +
+                             in_short(history_[0]) + ": the matrix is singular or nearly so");
+        return 1;
+      }
+
+      const std::vector<double> &
+      history() const override
+      {
+        return history_;
+      }
+
+    private:
+      static constexpr double acceptable_residual  = 1e-5;
+      std::unique_ptr<ApproximateInverse> factors_ = make_petsc_inverse(Approximation::factors);
+      const BlockMatrix *matrix_                   = nullptr;
+      mutable std::vector<double> history_;
+    };
+
+    class ConjugateGradients : public LinearSolver
+    {
+    public:
+      /// @param inverse none if null.
+      ConjugateGradients(const LinearSolverParameters &parameters,
+                         std::unique_ptr<ApproximateInverse> inverse)
+          : parameters_(parameters), inverse_(std::move(inverse))
+      {
+      }
+
+      void
+      set_matrix(const BlockMatrix &matrix,
+                 const std::vector<Point> &positions,
+                 const std::vector<unsigned int> &constrained) override
+      {
+        matrix_ = &matrix;
+        if (inverse_)
+          inverse_->set_matrix(matrix, positions, constrained);
+      }
+
+      unsigned int solve(Vector &x, const Vector &b) const override;
+
+      const std::vector<double> &
+      history() const override
+      {
+        return history_;
+      }
+
+    private:
+      [[noreturn]] void
+      fail(const std::string &what) const
+      {
+        throw NotConverged("conjugate gradients with the preconditioner " +
+                           parameters_.preconditioner + ' ' + what);
+      }
+
+      const LinearSolverParameters parameters_;
+      std::unique_ptr<ApproximateInverse> inverse_;
+      const BlockMatrix *matrix_ = nullptr;
+      mutable std::vector<double> history_;
+    };
+
+    unsigned int
+    ConjugateGradients::solve(Vector &x, const Vector &b) const
+    {
+      history_.clear();
+      x.zero_out_ghost_values();
+      x                   = 0.;
+      const double b_norm = b.l2_norm();
+      if (b_norm == 0)
+        return 0;
+      Vector r(matrix_->partitioner()), z(r), p(r), Ap(r);
+      std::copy_n(b.begin(), b.locally_owned_size(), r.begin());
+
+      double rz_before = 1;
+      for (unsigned int iteration = 1; iteration <= parameters_.max_iterations; ++iteration)
+      {
+        if (inverse_)
+          inverse_->vmult(z, r);
+        else
+          z = r;
+        const double rz = r * z;
+        p.sadd(iteration > 1 ? rz / rz_before : 0., 1., z);
+        matrix_->vmult(Ap, p);
+        const double pAp = p * Ap;
+        if (!std::isfinite(rz) || !std::isfinite(pAp))
+          fail("met a number that is not finite");
+        if (rz <= 0 || pAp <= 0) // the preconditioner or the matrix is indefinite
+        {
+          if (iteration == 1 && rz <= 0)
+            fail("cannot start: the preconditioner is not positive definite");
+          if (iteration == 1) // as long as if the curvature had the other sign
+            x.equ(pAp < 0 ? -rz / pAp : 1., p);
+          return iteration;
+        }
+        x.add(rz / pAp, p);
+        r.add(-rz / pAp, Ap);
+        rz_before = rz;
+        history_.push_back(r.l2_norm() / b_norm);
+        if (history_.back() <= parameters_.tolerance)
+          return iteration;
+      }
+      fail("reached a relative residual of " + in_short(history_.back()) + " instead of " +
+           in_short(parameters_.tolerance) + " in " + std::to_string(parameters_.max_iterations) +
+           " iterations");
+    }
+  } // namespace
+
+  void
+  LinearSolverParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Linear solver", solver,
+                      "Conjugate gradients, or a direct factorisation by MUMPS, which needs much "
+                      "memory but minds neither bad cuts nor slender bodies.",
+                      dealii::Patterns::Selection("CG|direct"));
+    prm.add_parameter("Preconditioner", preconditioner,
+                      "Of the conjugate gradients. AMG keeps the six rigid-body motions; its "
+                      "iterations hardly grow with the number of unknowns. Incomplete Cholesky is "
+                      "that of each rank's own part.",
+                      dealii::Patterns::Selection("none|Jacobi|incomplete Cholesky|AMG"));
+    prm.add_parameter("Backend", backend,
+                      "Whose preconditioners are used: ML and Ifpack of Trilinos, or GAMG and ICC "
+                      "of PETSc.",
+                      dealii::Patterns::Selection("Trilinos|PETSc"));
+    prm.add_parameter("Linear tolerance", tolerance,
+                      "Residual of the linear system relative to its right-hand side. Units: 1",
+                      dealii::Patterns::Double(0., 1.));
+    prm.add_parameter("Linear iterations", max_iterations,
+                      "Iterations of the conjugate gradients after which a solve has failed.",
+                      dealii::Patterns::Integer(1));
+  }
+
+  std::vector<Vector>
+  rigid_body_modes(const std::shared_ptr<const Partitioner> &unknowns,
+                   const std::vector<Point> &positions,
+                   const std::vector<unsigned int> &constrained)
+  {
+    const unsigned int n_owned = unknowns->locally_owned_size() / 3;
+    Direction center;
+    for (unsigned int i = 0; i < n_owned; ++i)
+      center += positions[i] / (unknowns->size() / 3.);
+    center = dealii::Utilities::MPI::sum(center, unknowns->get_mpi_communicator());
+
+    std::vector<Vector> modes;
+    for (unsigned int m = 0; m < 6; ++m)
+    {
+      Direction axis;
+      axis[m % 3] = 1;
+      Vector mode(unknowns);
+      for (unsigned int i = 0; i < n_owned; ++i)
+      {
+        const Direction motion =
+          m < 3 ? axis : dealii::cross_product_3d(axis, Direction(positions[i]) - center);
+        for (unsigned int c = 0; c < 3; ++c)
+          mode.local_element(3 * i + c) = motion[c];
+      }
+      for (const unsigned int unknown : constrained)
+        if (unknown < 3 * n_owned)
+          mode.local_element(unknown) = 0.;
+
+      const double length = mode.l2_norm();
+      for (const Vector &other : modes)
+        mode.add(-(other * mode), other);
+      const double rest = mode.l2_norm();
+      if (rest > 1e-8 * length)
+        modes.push_back(mode *= 1 / rest);
+    }
+    return modes;
+  }
+
+  std::unique_ptr<LinearSolver>
+  make_linear_solver(const LinearSolverParameters &parameters)
+  {
+    if (parameters.solver == "direct")
+      return std::make_unique<DirectSolver>();
+
+    std::unique_ptr<ApproximateInverse> inverse;
+    if (parameters.preconditioner == "Jacobi")
+      inverse = std::make_unique<Jacobi>();
+    else if (parameters.preconditioner != "none")
+    {
+      const auto approximation = parameters.preconditioner == "AMG"
+                                   ? Approximation::multigrid
+                                   : Approximation::incomplete_cholesky;
+      inverse                  = parameters.backend == "PETSc" ? make_petsc_inverse(approximation)
+                                                               : make_trilinos_inverse(approximation);
+    }
+    return std::make_unique<ConjugateGradients>(parameters, std::move(inverse));
+  }
+} // namespace softcell
