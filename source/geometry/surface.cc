@@ -14,16 +14,14 @@ namespace softcell
   {
     using Corners = std::array<Point, 3>;
 
-    Direction
-    area_vector(const Corners &t)
+    Direction area_vector(const Corners &t)
     {
       return 0.5 * cross_product_3d(t[1] - t[0], t[2] - t[0]);
     }
 
     /// a d - b c with a relative error of two roundings, hence of exact sign (Kahan; Jeannerod et
     /// al. 2013).
-    double
-    determinant(const double a, const double b, const double c, const double d)
+    double determinant(const double a, const double b, const double c, const double d)
     {
       const double bc    = b * c;
       const double error = std::fma(-b, c, bc);
@@ -33,8 +31,7 @@ namespace softcell
     /// Is the triangle met by the half-line from the origin in the direction of z? The line is
     /// thought displaced by (e, e^2, 0) with an infinitesimal e > 0, so that it never meets an
     /// edge.
-    bool
-    is_above_origin(const Corners &t)
+    bool is_above_origin(const Corners &t)
     {
       std::array<double, 3>
         weight; // twice the area between the origin and the edge against corner i
@@ -53,8 +50,7 @@ namespace softcell
     }
 
     /// Separating axis test of a triangle and the box [-half, half].
-    bool
-    overlap(const Corners &t, const Direction &half)
+    bool overlap(const Corners &t, const Direction &half)
     {
       const auto separated = [&](const Direction &axis) {
         const auto [low, high] = std::minmax({axis * t[0], axis * t[1], axis * t[2]});
@@ -81,8 +77,7 @@ namespace softcell
 
     /// Nearest point of a triangle: the foot on its plane, or else the nearest of the feet on its
     /// edges.
-    Point
-    nearest_point(const Corners &t, const Point &X)
+    Point nearest_point(const Corners &t, const Point &X)
     {
       const Direction n = area_vector(t);
       Point nearest;
@@ -159,19 +154,16 @@ namespace softcell
       unsigned int first;       // triangle in the tree's order, or number of the right child
     };
 
-    const std::vector<Node> &
-    nodes() const
+    const std::vector<Node> &nodes() const
     {
       return nodes_;
     }
     /// Number of a triangle in the surface and its corners, by its place in the tree's order.
-    unsigned int
-    number(const unsigned int place) const
+    unsigned int number(const unsigned int place) const
     {
       return numbers_[place];
     }
-    const Corners &
-    corners(const unsigned int place) const
+    const Corners &corners(const unsigned int place) const
     {
       return corners_[place];
     }
@@ -179,8 +171,7 @@ namespace softcell
     /// Calls visit(place) for the triangles of all leaves reached through nodes that pass
     /// enter(node), until `visit` returns true; returns whether it did.
     template <class Enter, class Visit>
-    bool
-    any_of(const Enter &enter, const Visit &visit) const
+    bool any_of(const Enter &enter, const Visit &visit) const
     {
       std::array<unsigned int, 64> stack; // twice the depth of a tree of 2^32 triangles
       unsigned int n = 0;
@@ -206,8 +197,7 @@ namespace softcell
 
     /// As any_of, for the triangles that meet the closed box.
     template <class Visit>
-    bool
-    any_in(const Box &box, const Visit &visit) const
+    bool any_in(const Box &box, const Visit &visit) const
     {
       const auto [lower, upper] = box.get_boundary_points();
       const Point centre        = box.center();
@@ -228,12 +218,11 @@ namespace softcell
     }
 
   private:
-    void
-    build(const unsigned int begin,
-          const unsigned int end,
-          const std::vector<Point> &vertices,
-          const std::vector<Triangle> &triangles,
-          const std::vector<Point> &centres)
+    void build(const unsigned int begin,
+               const unsigned int end,
+               const std::vector<Point> &vertices,
+               const std::vector<Triangle> &triangles,
+               const std::vector<Point> &centres)
     {
       const unsigned int leaf_size = 4;
       const unsigned int self      = nodes_.size();
@@ -290,28 +279,24 @@ namespace softcell
   Surface::Surface(Surface &&) noexcept            = default;
   Surface &Surface::operator=(Surface &&) noexcept = default;
 
-  std::array<Point, 3>
-  Surface::corners(const unsigned int triangle) const
+  std::array<Point, 3> Surface::corners(const unsigned int triangle) const
   {
     const Triangle &t = triangles_[triangle];
     return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
   }
 
-  Direction
-  Surface::normal(const unsigned int triangle) const
+  Direction Surface::normal(const unsigned int triangle) const
   {
     const Direction n = area_vector(corners(triangle));
     return n / n.norm();
   }
 
-  double
-  Surface::area(const unsigned int triangle) const
+  double Surface::area(const unsigned int triangle) const
   {
     return area_vector(corners(triangle)).norm();
   }
 
-  double
-  Surface::area() const
+  double Surface::area() const
   {
     double area = 0;
     for (unsigned int t = 0; t < triangles_.size(); ++t)
@@ -319,8 +304,7 @@ namespace softcell
     return area;
   }
 
-  double
-  Surface::volume() const
+  double Surface::volume() const
   {
     double volume = 0;
     for (unsigned int t = 0; t < triangles_.size(); ++t)
@@ -332,16 +316,14 @@ namespace softcell
     return volume;
   }
 
-  Box
-  Surface::bounding_box() const
+  Box Surface::bounding_box() const
   {
     if (tree_->nodes().empty())
       return Box();
     return Box({tree_->nodes()[0].lower, tree_->nodes()[0].upper});
   }
 
-  bool
-  Surface::contains(const Point &X) const
+  bool Surface::contains(const Point &X) const
   {
     bool inside = false;
     tree_->any_of(
@@ -357,8 +339,7 @@ namespace softcell
     return inside;
   }
 
-  std::vector<unsigned int>
-  Surface::triangles_in(const Box &box) const
+  std::vector<unsigned int> Surface::triangles_in(const Box &box) const
   {
     std::vector<unsigned int> result;
     tree_->any_in(box, [&](const unsigned int triangle) {
@@ -368,14 +349,12 @@ namespace softcell
     return result;
   }
 
-  bool
-  Surface::meets(const Box &box) const
+  bool Surface::meets(const Box &box) const
   {
     return tree_->any_in(box, [](const unsigned int) { return true; });
   }
 
-  std::pair<Point, unsigned int>
-  Surface::nearest(const Point &X) const
+  std::pair<Point, unsigned int> Surface::nearest(const Point &X) const
   {
     // A descent to the leaf that looks nearest gives a first bound, which prunes the search proper.
     const auto distance_to = [&](const Tree::Node &node) {
@@ -412,8 +391,7 @@ namespace softcell
     return result;
   }
 
-  std::vector<Point>
-  clip(const std::array<Point, 3> &triangle, const Box &box)
+  std::vector<Point> clip(const std::array<Point, 3> &triangle, const Box &box)
   {
     const auto [lower, upper] = box.get_boundary_points();
     Polygon polygon;

@@ -12,8 +12,7 @@ namespace softcell
     /// Integral of height(z) over the projection of a polygon to z = 0, positive where its normal
     /// points up; `height` is linear.
     template <class Height>
-    double
-    integrate_projection(const std::vector<Point> &polygon, const Height &height)
+    double integrate_projection(const std::vector<Point> &polygon, const Height &height)
     {
       double integral = 0;
       for (unsigned int i = 2; i < polygon.size(); ++i)
@@ -34,20 +33,17 @@ namespace softcell
     Assert(volume_ > 0, dealii::ExcMessage("The surface's normals point inward."));
   }
 
-  Box
-  SurfaceBody::bounding_box() const
+  Box SurfaceBody::bounding_box() const
   {
     return bounding_box_;
   }
 
-  bool
-  SurfaceBody::contains(const Point &X) const
+  bool SurfaceBody::contains(const Point &X) const
   {
     return surface_.contains(X);
   }
 
-  Side
-  SurfaceBody::classify(const Box &box) const
+  Side SurfaceBody::classify(const Box &box) const
   {
     auto [lower, upper]       = box.get_boundary_points();
     const Direction clearance = 1e-9 * (upper - lower);
@@ -56,8 +52,7 @@ namespace softcell
     return surface_.contains(box.center()) ? Side::inside : Side::outside;
   }
 
-  double
-  SurfaceBody::filled_volume(const Box &box) const
+  double SurfaceBody::filled_volume(const Box &box) const
   {
     if (!surface_.meets(box))
       return surface_.contains(box.center()) ? box.volume() : 0;
@@ -79,14 +74,12 @@ namespace softcell
     return std::clamp(volume, 0., box.volume());
   }
 
-  double
-  SurfaceBody::volume() const
+  double SurfaceBody::volume() const
   {
     return volume_;
   }
 
-  const Surface &
-  SurfaceBody::surface() const
+  const Surface &SurfaceBody::surface() const
   {
     return surface_;
   }

@@ -30,16 +30,14 @@ namespace softcell
     public:
       Text(const std::string &file, const std::string &content) : file_(file), content_(content) {}
 
-      [[noreturn]] void
-      fail(const std::string &what) const
+      [[noreturn]] void fail(const std::string &what) const
       {
         const auto line = 1 + std::count(content_.begin(), content_.begin() + position_, '\n');
         throw BadInput(file_ + ": line " + std::to_string(line) + ": " + what);
       }
 
       /// The next word, without comments; empty at the end.
-      std::string_view
-      word()
+      std::string_view word()
       {
         skip_space();
         while (position_ < content_.size() && content_[position_] == '#')
@@ -52,8 +50,7 @@ namespace softcell
         return content_.substr(begin, position_ - begin);
       }
 
-      std::string_view
-      rest_of_line()
+      std::string_view rest_of_line()
       {
         const std::size_t begin = position_;
         const std::size_t end   = std::min(content_.find('\n', begin), content_.size());
@@ -61,8 +58,7 @@ namespace softcell
         return content_.substr(begin, end - begin);
       }
 
-      void
-      expect(const std::string_view expected)
+      void expect(const std::string_view expected)
       {
         const std::string_view found = word();
         if (found.empty())
@@ -72,8 +68,7 @@ namespace softcell
                "'; export the file again");
       }
 
-      double
-      number()
+      double number()
       {
         std::string_view found = word();
         if (found.empty())
@@ -89,21 +84,18 @@ namespace softcell
         return value;
       }
 
-      Point
-      point()
+      Point point()
       {
         const double x = number(), y = number(), z = number();
         return Point(x, y, z);
       }
 
       /// A number of something, or the number of a point.
-      unsigned int
-      count()
+      unsigned int count()
       {
         return as_count(number());
       }
-      unsigned int
-      as_count(const double value) const
+      unsigned int as_count(const double value) const
       {
         if (!(value >= 0 && value < 4e9 && value == std::floor(value)))
           fail("expected a count or the number of a point but found " + std::to_string(value) +
@@ -112,8 +104,7 @@ namespace softcell
       }
 
       /// Bytes of a binary file.
-      std::string_view
-      bytes(const std::size_t n)
+      std::string_view bytes(const std::size_t n)
       {
         if (content_.size() - position_ < n)
           throw BadInput(file_ + ": " + truncated + ".");
@@ -122,8 +113,7 @@ namespace softcell
       }
 
     private:
-      void
-      skip_space()
+      void skip_space()
       {
         position_ = std::min(content_.find_first_not_of(" \t\r\n", position_), content_.size());
       }
@@ -133,8 +123,7 @@ namespace softcell
       std::size_t position_ = 0;
     };
 
-    SurfaceSoup
-    read_off(Text text)
+    SurfaceSoup read_off(Text text)
     {
       SurfaceSoup soup;
       text.expect("OFF");
@@ -156,8 +145,7 @@ namespace softcell
     }
 
     /// Groups and objects are patches, numbered as their names first appear with a face.
-    SurfaceSoup
-    read_obj(Text text)
+    SurfaceSoup read_obj(Text text)
     {
       SurfaceSoup soup;
       std::map<std::string, unsigned int> groups;
@@ -196,8 +184,7 @@ namespace softcell
     }
 
     /// Each `solid` is a patch.
-    SurfaceSoup
-    read_stl_text(Text text)
+    SurfaceSoup read_stl_text(Text text)
     {
       SurfaceSoup soup;
       unsigned int patch = 0;
@@ -232,8 +219,7 @@ namespace softcell
     }
 
     template <class T>
-    T
-    from_bytes(const std::string_view bytes, const bool reversed = false)
+    T from_bytes(const std::string_view bytes, const bool reversed = false)
     {
       char copy[sizeof(T)];
       std::copy_n(bytes.data(), sizeof(T), copy);
@@ -246,8 +232,7 @@ namespace softcell
 
     /// Binary: 80 bytes of header, the number of triangles, 50 bytes for each. Many begin with
     /// "solid" all the same.
-    SurfaceSoup
-    read_stl(const std::string &file, std::string content)
+    SurfaceSoup read_stl(const std::string &file, std::string content)
     {
       const std::size_t header = 84, triangle_size = 50;
       Text text(file, content);
@@ -293,8 +278,7 @@ namespace softcell
     public:
       explicit PlyReader(Text text) : text_(std::move(text)) {}
 
-      SurfaceSoup
-      read()
+      SurfaceSoup read()
       {
         read_header();
         SurfaceSoup soup;
@@ -336,8 +320,7 @@ namespace softcell
         std::vector<Property> properties;
       };
 
-      void
-      read_header()
+      void read_header()
       {
         text_.expect("ply");
         text_.expect("format");
@@ -373,8 +356,7 @@ namespace softcell
         text_.rest_of_line();
       }
 
-      double
-      value(const std::string &type)
+      double value(const std::string &type)
       {
         if (format_ == "ascii")
           return text_.number();
@@ -403,8 +385,7 @@ namespace softcell
       std::vector<Element> elements_;
     };
 
-    SurfaceSoup
-    read_soup(const std::string &file)
+    SurfaceSoup read_soup(const std::string &file)
     {
       std::string ending = std::filesystem::path(file).extension();
       std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);

@@ -39,15 +39,13 @@ namespace softcell
     };
     using Origins = Mesh::Property_map<Mesh::Face_index, Origin>;
 
-    std::string
-    plural(const std::size_t n, const std::string &singular, const std::string &plural)
+    std::string plural(const std::size_t n, const std::string &singular, const std::string &plural)
     {
       return std::to_string(n) + " " + (n == 1 ? singular : plural);
     }
 
     /// "(x, y, z), (x, y, z)": the first few of some places.
-    std::string
-    first_places(const std::vector<Point> &places)
+    std::string first_places(const std::vector<Point> &places)
     {
       std::ostringstream text;
       for (unsigned int i = 0; i < std::min<std::size_t>(places.size(), 3); ++i)
@@ -64,8 +62,7 @@ namespace softcell
       std::vector<unsigned int> patches;
     };
 
-    void
-    check_points(const SurfaceSoup &soup, const std::string &name)
+    void check_points(const SurfaceSoup &soup, const std::string &name)
     {
       if (soup.polygons.empty())
         throw BadInput(name + ": the file holds no triangles but " +
@@ -99,8 +96,7 @@ namespace softcell
 
     /// Merges points of the same coordinates, splits polygons by a fan from a corner, and drops
     /// triangles that have fewer than three distinct points or occur twice.
-    TriangleSoup
-    as_triangles(const SurfaceSoup &soup, std::vector<std::string> &repairs)
+    TriangleSoup as_triangles(const SurfaceSoup &soup, std::vector<std::string> &repairs)
     {
       TriangleSoup result;
       std::map<std::array<double, 3>, std::size_t> places;
@@ -155,8 +151,7 @@ namespace softcell
     }
 
     /// Every edge must belong to two triangles.
-    void
-    check_edges(const TriangleSoup &soup, const std::string &name)
+    void check_edges(const TriangleSoup &soup, const std::string &name)
     {
       std::map<std::pair<std::size_t, std::size_t>, unsigned int> n_triangles;
       for (const auto &t : soup.triangles)
@@ -183,8 +178,7 @@ namespace softcell
     }
 
     /// Gives the triangles one orientation and makes a mesh of them.
-    Mesh
-    as_mesh(TriangleSoup soup, const std::string &name)
+    Mesh as_mesh(TriangleSoup soup, const std::string &name)
     {
       const std::size_t n_points = soup.points.size();
       const auto triangles       = soup.triangles;
@@ -212,8 +206,7 @@ namespace softcell
       return mesh;
     }
 
-    Point
-    centre(const Mesh &mesh, const Mesh::Face_index face)
+    Point centre(const Mesh &mesh, const Mesh::Face_index face)
     {
       Point sum;
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(face)))
@@ -222,8 +215,7 @@ namespace softcell
       return sum;
     }
 
-    Surface
-    as_surface(const Mesh &mesh)
+    Surface as_surface(const Mesh &mesh)
     {
       std::vector<Point> vertices;
       std::vector<Surface::Triangle> triangles;
@@ -247,8 +239,7 @@ namespace softcell
     }
 
     /// Triangles whose three distinct corners lie on a line.
-    void
-    remove_slivers(Mesh &mesh, const std::string &name, std::vector<std::string> &repairs)
+    void remove_slivers(Mesh &mesh, const std::string &name, std::vector<std::string> &repairs)
     {
       std::vector<Mesh::Face_index> flat;
       PMP::degenerate_faces(mesh, std::back_inserter(flat));
@@ -266,8 +257,7 @@ namespace softcell
     }
 
     /// Drops connected parts that enclose next to nothing.
-    void
-    remove_specks(Mesh &mesh, std::vector<std::string> &repairs)
+    void remove_specks(Mesh &mesh, std::vector<std::string> &repairs)
     {
       const double smallest = 1e-4; // relative to the largest part
       const auto parts      = mesh.add_property_map<Mesh::Face_index, std::size_t>("part").first;
@@ -306,10 +296,9 @@ namespace softcell
       mesh.remove_property_map(const_cast<std::remove_const_t<decltype(parts)> &>(parts));
     }
 
-    void
-    remove_self_intersections(Mesh &mesh,
-                              const std::string &name,
-                              std::vector<std::string> &repairs)
+    void remove_self_intersections(Mesh &mesh,
+                                   const std::string &name,
+                                   std::vector<std::string> &repairs)
     {
       const double changed_at_most = 1e-3; // of the volume
       std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
@@ -342,8 +331,7 @@ namespace softcell
     }
 
     /// Outward normals; a part within another one is a hole in it.
-    void
-    orient(Mesh &mesh, std::vector<std::string> &repairs)
+    void orient(Mesh &mesh, std::vector<std::string> &repairs)
     {
       PMP::orient_to_bound_a_volume(mesh);
       const Origins origins = mesh.property_map<Mesh::Face_index, Origin>("origin").first;

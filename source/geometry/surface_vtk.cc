@@ -43,8 +43,7 @@ namespace softcell
         vtkOutputWindow::SetInstance(previous_window_);
         vtkLogger::SetStderrVerbosity(previous_log_);
       }
-      bool
-      any() const
+      bool any() const
       {
         return window_->any;
       }
@@ -54,8 +53,7 @@ namespace softcell
       {
       public:
         static Window *New();
-        void
-        DisplayText(const char *) override
+        void DisplayText(const char *) override
         {
           any = true;
         }
@@ -69,8 +67,7 @@ namespace softcell
     vtkStandardNewMacro(VtkMessages::Window);
 
     template <class Reader>
-    vtkSmartPointer<vtkPolyData>
-    read_poly_data(const std::string &file)
+    vtkSmartPointer<vtkPolyData> read_poly_data(const std::string &file)
     {
       VtkMessages messages;
       vtkNew<Reader> reader;
@@ -86,8 +83,7 @@ namespace softcell
     }
   } // namespace
 
-  SurfaceSoup
-  read_vtk_soup(const std::string &file)
+  SurfaceSoup read_vtk_soup(const std::string &file)
   {
     const bool is_xml = std::filesystem::path(file).extension() != ".vtk";
     const auto data =
@@ -125,10 +121,9 @@ namespace softcell
     return soup;
   }
 
-  void
-  write_vtp(const std::string &file,
-            const Surface &surface,
-            const std::vector<std::pair<std::string, std::vector<Direction>>> &vectors)
+  void write_vtp(const std::string &file,
+                 const Surface &surface,
+                 const std::vector<std::pair<std::string, std::vector<Direction>>> &vectors)
   {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();

@@ -9,16 +9,14 @@
 namespace softcell::testing
 {
   /// The corners (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1).
-  inline Surface
-  tetrahedron()
+  inline Surface tetrahedron()
   {
     return Surface({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)},
                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
   }
 
   /// A box of twelve triangles; patch d is the lower and patch 3 + d the upper side along d.
-  inline Surface
-  brick(const Point &lower = Point(), const Point &upper = Point(1, 1, 1))
+  inline Surface brick(const Point &lower = Point(), const Point &upper = Point(1, 1, 1))
   {
     std::vector<Point> vertices;
     for (unsigned int v = 0; v < 8; ++v)
@@ -75,8 +73,7 @@ namespace softcell::testing
 
   /// Calls f for n^3 equal boxes that tile the given one.
   template <class F>
-  void
-  for_each_cell(const Box &box, const unsigned int n, const F &f)
+  void for_each_cell(const Box &box, const unsigned int n, const F &f)
   {
     const auto [lower, upper] = box.get_boundary_points();
     const auto corner         = [&, lower = lower, upper = upper](
@@ -93,8 +90,7 @@ namespace softcell::testing
           f(Box({corner(i, j, k), corner(i + 1, j + 1, k + 1)}));
   }
 
-  inline double
-  polygon_area(const std::vector<Point> &polygon)
+  inline double polygon_area(const std::vector<Point> &polygon)
   {
     Direction sum;
     for (unsigned int i = 2; i < polygon.size(); ++i)

@@ -16,8 +16,7 @@ using namespace softcell::testing;
 namespace
 {
   /// Sum of the filled volumes of n^3 boxes, and whether classification agrees with each of them.
-  double
-  sum_of_filled_volumes(const Body &body, const Box &box, const unsigned int n)
+  double sum_of_filled_volumes(const Body &body, const Box &box, const unsigned int n)
   {
     double sum = 0;
     for_each_cell(box, n, [&](const Box &cell) {
@@ -40,8 +39,7 @@ namespace
   }
 
   /// A cube of side 2 with a round hole in its middle.
-  Surface
-  hollow_cube(const Surface &hole)
+  Surface hollow_cube(const Surface &hole)
   {
     const Surface cube = brick(Point(-1, -1, -1), Point(1, 1, 1));
     auto vertices      = cube.vertices();

@@ -27,13 +27,11 @@ namespace softcell::testing
     {
       std::filesystem::remove_all(path_);
     }
-    std::string
-    path(const std::string &name) const
+    std::string path(const std::string &name) const
     {
       return path_ / name;
     }
-    std::string
-    write(const std::string &name, const std::string &content) const
+    std::string write(const std::string &name, const std::string &content) const
     {
       std::ofstream(path(name), std::ios::binary) << content;
       return path(name);
@@ -43,8 +41,7 @@ namespace softcell::testing
     std::filesystem::path path_;
   };
 
-  inline std::string
-  as_off(const Surface &surface)
+  inline std::string as_off(const Surface &surface)
   {
     std::ostringstream out;
     out.precision(17);
@@ -58,8 +55,7 @@ namespace softcell::testing
   }
 
   /// Patches are groups; half of the faces count points backwards and name normals.
-  inline std::string
-  as_obj(const Surface &surface)
+  inline std::string as_obj(const Surface &surface)
   {
     std::ostringstream out;
     out.precision(17);
@@ -80,8 +76,7 @@ namespace softcell::testing
   }
 
   /// Patches are solids; the triangles must be sorted by them.
-  inline std::string
-  as_stl_text(const Surface &surface)
+  inline std::string as_stl_text(const Surface &surface)
   {
     std::ostringstream out;
     out.precision(17);
@@ -101,15 +96,13 @@ namespace softcell::testing
   }
 
   template <class T>
-  void
-  append_bytes(std::string &out, const T value, const bool reversed = false)
+  void append_bytes(std::string &out, const T value, const bool reversed = false)
   {
     std::string bytes(reinterpret_cast<const char *>(&value), sizeof(T));
     out += reversed ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
   }
 
-  inline std::string
-  as_stl_binary(const Surface &surface)
+  inline std::string as_stl_binary(const Surface &surface)
   {
     std::string out = "solid by name only";
     out.resize(80, ' ');
@@ -127,8 +120,7 @@ namespace softcell::testing
   }
 
   /// @param format ascii, binary_little_endian or binary_big_endian
-  inline std::string
-  as_ply(const Surface &surface, const std::string &format)
+  inline std::string as_ply(const Surface &surface, const std::string &format)
   {
     std::ostringstream header;
     header << "ply\nformat " << format << " 1.0\ncomment none\nelement vertex "

@@ -15,8 +15,7 @@ namespace
 {
   using Names = std::vector<std::string>;
 
-  std::string
-  read_error(const std::string &file)
+  std::string read_error(const std::string &file)
   {
     std::vector<std::string> repairs;
     try
@@ -31,8 +30,7 @@ namespace
   }
 
   /// Writes the surface in each format; returns the files.
-  Names
-  write_all(const TemporaryFolder &folder, const Surface &surface)
+  Names write_all(const TemporaryFolder &folder, const Surface &surface)
   {
     write_vtp(folder.path("xml.vtp"), surface, {});
     return {folder.write("a.off", as_off(surface)),

@@ -18,8 +18,7 @@ namespace
 {
   using Names = std::vector<std::string>;
 
-  SurfaceSoup
-  soup_of(const Surface &surface)
+  SurfaceSoup soup_of(const Surface &surface)
   {
     SurfaceSoup soup;
     soup.points  = surface.vertices();
@@ -30,11 +29,10 @@ namespace
   }
 
   /// Appends a surface, moved and inside out if so wished.
-  SurfaceSoup
-  joined(SurfaceSoup soup,
-         const SurfaceSoup &other,
-         const Direction &shift = {},
-         const bool turn        = false)
+  SurfaceSoup joined(SurfaceSoup soup,
+                     const SurfaceSoup &other,
+                     const Direction &shift = {},
+                     const bool turn        = false)
   {
     for (auto polygon : other.polygons)
     {
@@ -50,8 +48,7 @@ namespace
     return soup;
   }
 
-  double
-  repaired_volume(const SurfaceSoup &soup, const Names &expected_repairs)
+  double repaired_volume(const SurfaceSoup &soup, const Names &expected_repairs)
   {
     Names repairs;
     const Surface surface = close_surface(soup, "file", repairs);
@@ -59,8 +56,7 @@ namespace
     return surface.volume();
   }
 
-  void
-  expect_error(const SurfaceSoup &soup, const std::string &part)
+  void expect_error(const SurfaceSoup &soup, const std::string &part)
   {
     Names repairs;
     try

@@ -19,8 +19,7 @@ namespace
 {
   /// Winding number of a closed surface around X: the sum of solid angles (van Oosterom and
   /// Strackee 1983) / 4 pi.
-  double
-  winding_number(const Surface &surface, const Point &X)
+  double winding_number(const Surface &surface, const Point &X)
   {
     double angle = 0;
     for (unsigned int t = 0; t < surface.triangles().size(); ++t)
@@ -36,8 +35,7 @@ namespace
 
   struct RandomPoint
   {
-    Point
-    operator()(const double low, const double high)
+    Point operator()(const double low, const double high)
     {
       std::uniform_real_distribution<double> x(low, high);
       return Point(x(generator), x(generator), x(generator));

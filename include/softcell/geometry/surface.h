@@ -27,18 +27,15 @@ namespace softcell
     Surface(Surface &&) noexcept;
     Surface &operator=(Surface &&) noexcept;
 
-    const std::vector<Point> &
-    vertices() const
+    const std::vector<Point> &vertices() const
     {
       return vertices_;
     }
-    const std::vector<Triangle> &
-    triangles() const
+    const std::vector<Triangle> &triangles() const
     {
       return triangles_;
     }
-    const std::vector<unsigned int> &
-    patches() const
+    const std::vector<unsigned int> &patches() const
     {
       return patches_;
     }
