@@ -13,14 +13,12 @@ namespace softcell
 {
   namespace
   {
-    double
-    seconds_since(const std::chrono::steady_clock::time_point start)
+    double seconds_since(const std::chrono::steady_clock::time_point start)
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    std::size_t
-    terminal_width()
+    std::size_t terminal_width()
     {
       winsize size{};
       return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
@@ -49,24 +47,21 @@ namespace softcell
     erase_progress();
   }
 
-  void
-  Console::say(const std::string &line)
+  void Console::say(const std::string &line)
   {
     erase_progress();
     if (out_ != nullptr)
       *out_ << line << std::endl;
   }
 
-  void
-  Console::warn(const std::string &line)
+  void Console::warn(const std::string &line)
   {
     erase_progress();
     if (is_root_)
       (out_ != nullptr ? *out_ : std::cerr) << "warning: " << line << std::endl;
   }
 
-  void
-  Console::progress(const std::string &line)
+  void Console::progress(const std::string &line)
   {
     if (out_ == nullptr)
       return;
@@ -82,8 +77,7 @@ namespace softcell
     }
   }
 
-  void
-  Console::erase_progress()
+  void Console::erase_progress()
   {
     if (is_shown_)
       *out_ << "\r\033[K" << std::flush;
@@ -100,8 +94,7 @@ namespace softcell
     timers_.add(name_, seconds_since(start_));
   }
 
-  void
-  Timers::add(const std::string &name, const double seconds)
+  void Timers::add(const std::string &name, const double seconds)
   {
     if (find(name) == nullptr)
       sections_.push_back({name, 0, 0});
@@ -110,28 +103,24 @@ namespace softcell
     ++section.runs;
   }
 
-  double
-  Timers::seconds(const std::string &name) const
+  double Timers::seconds(const std::string &name) const
   {
     const Section *section = find(name);
     return section == nullptr ? 0 : section->seconds;
   }
 
-  double
-  Timers::mean(const std::string &name) const
+  double Timers::mean(const std::string &name) const
   {
     const Section *section = find(name);
     return section == nullptr ? 0 : section->seconds / section->runs;
   }
 
-  double
-  Timers::total() const
+  double Timers::total() const
   {
     return seconds_since(start_);
   }
 
-  void
-  Timers::print(Console &console) const
+  void Timers::print(Console &console) const
   {
     const double all = total();
     const auto line  = [&](const std::string &name, const double seconds, const std::string &runs) {
@@ -145,16 +134,14 @@ namespace softcell
     line("in all", all, "");
   }
 
-  const Timers::Section *
-  Timers::find(const std::string &name) const
+  const Timers::Section *Timers::find(const std::string &name) const
   {
     const auto section = std::find_if(sections_.begin(), sections_.end(),
                                       [&](const Section &s) { return s.name == name; });
     return section == sections_.end() ? nullptr : &*section;
   }
 
-  double
-  peak_rss_mib(MPI_Comm communicator)
+  double peak_rss_mib(MPI_Comm communicator)
   {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

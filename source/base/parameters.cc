@@ -26,8 +26,7 @@ namespace softcell
     using Tree = boost::property_tree::ptree;
     using Path = std::vector<std::string>;
 
-    std::string
-    join(const std::vector<std::string> &words, const std::string &separator)
+    std::string join(const std::vector<std::string> &words, const std::string &separator)
     {
       std::string text;
       for (const std::string &word : words)
@@ -36,8 +35,7 @@ namespace softcell
     }
 
     /// All that prm knows, with names as people write them.
-    Tree
-    declared(dealii::ParameterHandler &prm)
+    Tree declared(dealii::ParameterHandler &prm)
     {
       std::stringstream json;
       prm.print_parameters(json, dealii::ParameterHandler::JSON |
@@ -47,14 +45,12 @@ namespace softcell
       return tree;
     }
 
-    bool
-    is_entry(const Tree &node)
+    bool is_entry(const Tree &node)
     {
       return node.find("pattern_description") != node.not_found();
     }
 
-    const Tree *
-    find(const Tree &tree, const Path &path)
+    const Tree *find(const Tree &tree, const Path &path)
     {
       const Tree *node = &tree;
       for (const std::string &name : path)
@@ -68,10 +64,9 @@ namespace softcell
     }
 
     /// Calls action(path, node) for every entry.
-    void
-    for_each_entry(const Tree &tree,
-                   const std::function<void(const Path &, const Tree &)> &action,
-                   const Path &path = {})
+    void for_each_entry(const Tree &tree,
+                        const std::function<void(const Path &, const Tree &)> &action,
+                        const Path &path = {})
     {
       for (const auto &[name, node] : tree)
       {
@@ -84,8 +79,7 @@ namespace softcell
       }
     }
 
-    void
-    set_value(dealii::ParameterHandler &prm, const Path &path, const std::string &value)
+    void set_value(dealii::ParameterHandler &prm, const Path &path, const std::string &value)
     {
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
         prm.enter_subsection(path[i]);
@@ -104,8 +98,7 @@ namespace softcell
     }
 
     /// What a pattern allows, in words.
-    std::string
-    allowed(const std::string &pattern)
+    std::string allowed(const std::string &pattern)
     {
       std::smatch match;
       const auto number = [](const std::string &from, const std::string &to) {
@@ -144,8 +137,7 @@ namespace softcell
       return pattern;
     }
 
-    std::size_t
-    edit_distance(std::string a, std::string b)
+    std::size_t edit_distance(std::string a, std::string b)
     {
       for (std::string *text : {&a, &b})
         std::transform(text->begin(), text->end(), text->begin(),
@@ -167,8 +159,7 @@ namespace softcell
     }
 
     /// "; did you mean ...?" or what there is, for a path that prm does not know.
-    std::string
-    suggestion(const Tree &tree, const Path &path)
+    std::string suggestion(const Tree &tree, const Path &path)
     {
       const Path section(path.begin(), path.end() - 1);
       const Tree *parent = find(tree, section);
@@ -218,8 +209,7 @@ namespace softcell
     }
 
     /// The whole file, or BadInput.
-    std::string
-    read_file(const std::string &file)
+    std::string read_file(const std::string &file)
     {
       namespace fs = std::filesystem;
       std::error_code error;
@@ -270,8 +260,7 @@ namespace softcell
       read_override(override_text);
   }
 
-  void
-  ParameterFile::read_text(const std::string &text)
+  void ParameterFile::read_text(const std::string &text)
   {
     using dealii::Utilities::trim;
     std::istringstream in(text);
@@ -331,8 +320,7 @@ namespace softcell
                      "' is never closed; add its 'end'.");
   }
 
-  void
-  ParameterFile::read_override(const std::string &text)
+  void ParameterFile::read_override(const std::string &text)
   {
     using dealii::Utilities::trim;
     const std::string location = "--set '" + text + "'";
@@ -350,8 +338,7 @@ namespace softcell
     items_.insert(items_.begin() + first, {path, trim(text.substr(equals + 1)), location, false});
   }
 
-  std::vector<std::string>
-  ParameterFile::sections(const std::string &prefix) const
+  std::vector<std::string> ParameterFile::sections(const std::string &prefix) const
   {
     std::vector<std::string> names;
     for (const Item &item : items_)
@@ -379,8 +366,7 @@ namespace softcell
     return entries;
   }
 
-  void
-  ParameterFile::parse(dealii::ParameterHandler &prm) const
+  void ParameterFile::parse(dealii::ParameterHandler &prm) const
   {
     const Tree tree = declared(prm);
     std::map<Path, const Item *> seen;
@@ -413,8 +399,7 @@ namespace softcell
     }
   }
 
-  std::string
-  ParameterFile::location(const std::string &section, const std::string &entry) const
+  std::string ParameterFile::location(const std::string &section, const std::string &entry) const
   {
     Path path = dealii::Utilities::split_string_list(section, '/');
     path.push_back(entry);
@@ -424,8 +409,7 @@ namespace softcell
     return file_;
   }
 
-  void
-  print_parameters(dealii::ParameterHandler &prm, std::ostream &out)
+  void print_parameters(dealii::ParameterHandler &prm, std::ostream &out)
   {
     Path open;
     for_each_entry(declared(prm), [&](const Path &path, const Tree &entry) {
@@ -459,8 +443,7 @@ namespace softcell
       out << std::string(2 * (open.size() - 1), ' ') << "end\n";
   }
 
-  std::vector<ParameterFile::Entry>
-  all_parameters(dealii::ParameterHandler &prm)
+  std::vector<ParameterFile::Entry> all_parameters(dealii::ParameterHandler &prm)
   {
     std::vector<ParameterFile::Entry> entries;
     for_each_entry(declared(prm), [&](const Path &path, const Tree &entry) {
@@ -469,8 +452,7 @@ namespace softcell
     return entries;
   }
 
-  std::string
-  nearest_word(const std::string &word, const std::vector<std::string> &known)
+  std::string nearest_word(const std::string &word, const std::vector<std::string> &known)
   {
     std::string nearest;
     std::size_t smallest = 1 + std::max<std::size_t>(2, word.size() / 3);

@@ -28,8 +28,7 @@ namespace
     {
       std::remove(name_.c_str());
     }
-    const std::string &
-    name() const
+    const std::string &name() const
     {
       return name_;
     }
@@ -66,8 +65,7 @@ namespace
   };
 
   /// What the user is told of this text, without the file's name.
-  std::string
-  complaint(const std::string &text, const std::vector<std::string> &overrides = {})
+  std::string complaint(const std::string &text, const std::vector<std::string> &overrides = {})
   {
     const TemporaryFile file(text);
     try

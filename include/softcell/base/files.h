@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Writing text files so that a reader never sees half of one.
+#pragma once
+
+#include <string>
+
+namespace softcell
+{
+  /// Puts the text into the file in one move; what stood there before stays until then.
+  /// @throws BadInput if the file cannot be written.
+  void write_file(const std::string &file, const std::string &text);
+} // namespace softcell

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/base/files.h>
+
+#include <softcell/base/exceptions.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+namespace softcell
+{
+  void write_file(const std::string &file, const std::string &text)
+  {
+    const std::string part = file + ".part";
+    errno                  = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out || std::rename(part.c_str(), file.c_str()) != 0)
+    {
+      const std::string reason = std::strerror(errno);
+      std::remove(part.c_str());
+      throw BadInput("'" + file + "' cannot be written (" + reason +
+                     "); give a folder with room and permission by --output DIR.");
+    }
+  }
+} // namespace softcell

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/output/run_record.h>
+
+#include <softcell/base/files.h>
+#include <softcell/base/version.h>
+#include <softcell/output/commit.h>
+
+#include <deal.II/base/config.h>
+
+#include <CGAL/version.h>
+#include <mpi.h>
+#include <petscversion.h>
+#include <unistd.h>
+#include <vtkVersionMacros.h>
+
+#include <cstdio>
+#include <ctime>
+
+namespace softcell
+{
+  namespace
+  {
+    std::string quoted(const std::string &text)
+    {
+      std::string result = "\"";
+      for (const char c : text)
+        if (c == '"' || c == '\\')
+          result += std::string("\\") + c;
+        else if (static_cast<unsigned char>(c) < 32)
+        {
+          char code[8];
+          std::snprintf(code, sizeof(code), "\\u%04x", static_cast<unsigned int>(c));
+          result += code;
+        }
+        else
+          result += c;
+      return result + '"';
+    }
+
+    std::string number(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof(text), "%.6g", value);
+      return text;
+    }
+
+    using Members = std::vector<std::pair<std::string, std::string>>; // name and JSON value
+
+    std::string object(const Members &members, const std::string &indent)
+    {
+      std::string text = "{";
+      for (std::size_t i = 0; i < members.size(); ++i)
+        text += (i == 0 ? "\n" : ",\n") + indent + "  " + quoted(members[i].first) + ": " +
+                members[i].second;
+      return text + '\n' + indent + '}';
+    }
+
+    std::string triple(const int major, const int minor, const int patch)
+    {
+      return quoted(std::to_string(major) + '.' + std::to_string(minor) + '.' +
+                    std::to_string(patch));
+    }
+
+    Members libraries()
+    {
+      char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+      int length = 0;
+      MPI_Get_library_version(mpi, &length);
+      return {{"deal.II", quoted(DEAL_II_PACKAGE_VERSION)},
+              {"CGAL", quoted(CGAL_VERSION_STR)},
+              {"VTK", triple(VTK_MAJOR_VERSION, VTK_MINOR_VERSION, VTK_BUILD_VERSION)},
+              {"Trilinos", triple(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
+                                  DEAL_II_TRILINOS_VERSION_SUBMINOR)},
+              {"PETSc", triple(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+              {"MPI", quoted(std::string(mpi, length))},
+              {"compiler", quoted(__VERSION__)}};
+    }
+  } // namespace
+
+  std::string json(const RunRecord &record)
+  {
+    char host[256] = "";
+    gethostname(host, sizeof(host) - 1);
+    char date[32];
+    const std::time_t now = std::time(nullptr);
+    std::strftime(date, sizeof(date), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+
+    Members parameters;
+    for (const auto &[name, value] : record.parameters)
+      parameters.emplace_back(name, quoted(value));
+    std::string remarks;
+    for (const std::string &remark : record.remarks)
+      remarks += (remarks.empty() ? "" : ", ") + quoted(remark);
+
+    return object({{"program", quoted("softcell")},
+                   {"version", quoted(version)},
+                   {"commit", quoted(commit)},
+                   {"command_line", quoted(record.command_line)},
+                   {"status", quoted(record.status)},
+                   {"message", quoted(record.message)},
+                   {"written", quoted(date)},
+                   {"host", quoted(host)},
+                   {"ranks", std::to_string(record.ranks)},
+                   {"wall_s", number(record.wall_s)},
+                   {"remarks", "[" + remarks + "]"},
+                   {"libraries", object(libraries(), "  ")},
+                   {"parameters", object(parameters, "  ")}},
+                  "") +
+           '\n';
+  }
+
+  void write_run_record(const std::string &file, const RunRecord &record)
+  {
+    write_file(file, json(record));
+  }
+} // namespace softcell

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "one_tetrahedron.h"
+
+#include <softcell/base/exceptions.h>
+#include <softcell/output/checkpoint.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+using namespace softcell;
+
+TEST(Checkpoint, ReadsBack)
+{
+  const test::OneTetrahedronPerRank cells;
+  Vector u = cells.make_vector(), v = cells.make_vector();
+  // equal positions on two ranks have equal values, as one node would
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int d = 0; d < 3; ++d)
+      u.local_element(3 * i + d) = cells.node_positions()[i][d] * (1. / 3) + 0.1 * d;
+  write_checkpoint("checkpoint_test.h5", cells, u, 0.75);
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(read_checkpoint("checkpoint_test.h5", cells, v), 0.75);
+  for (unsigned int i = 0; i < 12; ++i)
+    EXPECT_EQ(v.local_element(i), u.local_element(i));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    std::remove("checkpoint_test.h5");
+}
+
+TEST(Checkpoint, MissingFile)
+{
+  const test::OneTetrahedronPerRank cells;
+  Vector u = cells.make_vector();
+  EXPECT_THROW(read_checkpoint("no/such.h5", cells, u), BadInput);
+  EXPECT_THROW(write_checkpoint("no/such/folder.h5", cells, u, 1), BadInput);
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/base/exceptions.h>
+#include <softcell/output/results.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+using namespace softcell;
+
+namespace
+{
+  std::string results_file()
+  {
+    return "results_test_" +
+           std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".csv";
+  }
+} // namespace
+
+TEST(Results, StandardColumnsComeFirst)
+{
+  ResultsTable table(results_file());
+  ResultsRow row;
+  row.set("tip_uz", 0.5);
+  row.set("dofs", 300u);
+  row.set("case", "liver");
+  table.add(row);
+  std::ifstream in(results_file());
+  std::string header, values;
+  std::getline(in, header);
+  std::getline(in, values);
+  EXPECT_EQ(
+    header,
+    "case,method,degree,cut_levels,cells,cut_cells,dofs,integration_points,load_steps,"
+    "newton_iterations,linear_iterations,setup_s,assembly_s,solve_s,total_s,peak_rss_mib,volume,"
+    "strain_energy,l2_displacement,min_jacobian,converged,tip_uz");
+  EXPECT_EQ(values, "liver,,,,,,300,,,,,,,,,,,,,,,0.5");
+  std::remove(results_file().c_str());
+}
+
+TEST(Results, ReadsBackWhatWasWritten)
+{
+  ResultsTable table(results_file());
+  ResultsRow first, second;
+  first.set("case", "a \"quoted\", long\nname");
+  first.set("volume", 0.1 + 0.2);
+  first.set("converged", true);
+  second.set("case", "b");
+  second.set("relative_l2_error", std::nextafter(1e-7, 1));
+  table.add(first);
+  table.add(second);
+
+  const std::vector<ResultsRow> rows = ResultsTable::read(results_file());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].get("case"), "a \"quoted\", long\nname");
+  EXPECT_EQ(rows[0].number("volume"), 0.1 + 0.2);
+  EXPECT_EQ(rows[0].get("converged"), "true");
+  EXPECT_TRUE(std::isnan(rows[0].number("relative_l2_error")));
+  EXPECT_EQ(rows[1].number("relative_l2_error"), std::nextafter(1e-7, 1));
+  std::remove(results_file().c_str());
+}
+
+TEST(Results, RefusesRaggedAndMissingFiles)
+{
+  std::ofstream(results_file()) << "case,method\na\n";
+  EXPECT_THROW(ResultsTable::read(results_file()), BadInput);
+  std::remove(results_file().c_str());
+  EXPECT_THROW(ResultsTable::read("no/such.csv"), BadInput);
+  EXPECT_THROW(ResultsTable("no/such/folder/results.csv").add({}), BadInput);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/output/run_record.h>
+
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace softcell;
+
+TEST(RunRecord, IsJsonAndKeepsEveryCharacter)
+{
+  RunRecord record;
+  record.command_line = "softcell --set 'Loads/top = \"x\\y\"\t'";
+  record.status       = "done";
+  record.ranks        = 3;
+  record.wall_s       = 1.25;
+  record.parameters   = {{"Geometry/File", "a.b/c\nd"}, {"Material/Model", "linear"}};
+  record.remarks      = {"one", "two, three"};
+
+  std::istringstream text(json(record));
+  boost::property_tree::ptree tree;
+  boost::property_tree::read_json(text, tree);
+  EXPECT_EQ(tree.get<std::string>("command_line"), record.command_line);
+  EXPECT_EQ(tree.get<std::string>("status"), "done");
+  EXPECT_EQ(tree.get<int>("ranks"), 3);
+  EXPECT_EQ(tree.get<double>("wall_s"), 1.25);
+  EXPECT_EQ(tree.get_child("parameters").front().second.data(), "a.b/c\nd");
+  EXPECT_EQ(tree.get_child("parameters").size(), 2u);
+  EXPECT_EQ(tree.get_child("remarks").back().second.data(), "two, three");
+  EXPECT_EQ(tree.get_child("libraries").find("deal.II")->second.data().substr(0, 2), "9.");
+  EXPECT_FALSE(tree.get<std::string>("host").empty());
+}
