@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The mistakes of a user, and what must be in the answer to each."""
+import struct
+
+# A tetrahedron with outward normals, in metres.
+VERTICES = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)]
+TRIANGLES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+
+
+def off(vertices, triangles):
+    lines = ["OFF", f"{len(vertices)} {len(triangles)} 0"]
+    lines += [" ".join(str(x) for x in vertex) for vertex in vertices]
+    lines += ["3 " + " ".join(str(i) for i in triangle) for triangle in triangles]
+    return "\n".join(lines) + "\n"
+
+
+def moved(vertices, x):
+    return [(v[0] + x, v[1] + 0.01, v[2] + 0.01) for v in vertices]
+
+
+def shifted(triangles, n):
+    return [tuple(i + n for i in triangle) for triangle in triangles]
+
+
+def write_files(folder):
+    """Surfaces and images, each with one fault, and one without."""
+    def write(name, vertices, triangles):
+        (folder / name).write_text(off(vertices, triangles))
+
+    write("good.off", VERTICES, TRIANGLES)
+    write("open.off", VERTICES, TRIANGLES[:3])
+    write("inside_out.off", VERTICES, [t[::-1] for t in TRIANGLES])
+    write("nan.off", [("nan", 0, 0), *VERTICES[1:]], TRIANGLES)
+    # a fin on an edge, and two tetrahedra one of which pierces the other
+    write("fin.off", [*VERTICES, (0.1, 0.1, 0.1)], [*TRIANGLES, (0, 1, 4)])
+    write("pierced.off", VERTICES + moved(VERTICES, 0.02), TRIANGLES + shifted(TRIANGLES, 4))
+    (folder / "truncated.off").write_text(off(VERTICES, TRIANGLES)[:60])
+    (folder / "truncated.stl").write_bytes(b"\0" * 80 + struct.pack("<I", 1000) + b"\0" * 70)
+    (folder / "junk.ply").write_bytes(bytes(range(256)) * 4)
+    (folder / "surface.xyz").write_text("0 0 0\n")
+    (folder / "empty.off").write_text("")
+    header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\nencoding: raw\n\n").encode()
+    (folder / "image.nrrd").write_bytes(header + b"\1" * 512)
+    (folder / "truncated.nrrd").write_bytes(header + b"\1" * 100)
+
+
+def surface(file):
+    return ["Geometry/Type = surface", f"Geometry/File = {file}"]
+
+
+def image(file, *more):
+    return ["Geometry/Type = image", f"Geometry/File = {file}", "Geometry/Scale = 0.01", *more]
+
+
+# Name of the mistake; settings on the command line; text of the parameter file (None: the bar, @BAR@ stands for it);
+# parts of the message.
+BAD_INPUTS = [
+    ("unknown entry", ["Material/Yung modulus = 1"], None, ["Yung modulus", "Material", "Young modulus"]),
+    ("unknown entry in the file", [], "@BAR@subsection Solver\n  set Lode steps = 3\nend\n",
+     ["mistake.prm:", "Lode steps", "Load steps"]),
+    ("unknown section", [], "@BAR@subsection Solvers\n  set Load steps = 3\nend\n", ["Solvers", "'Solver'"]),
+    ("open section", [], "@BAR@subsection Solver\n", ["mistake.prm:", "Solver", "end"]),
+    ("line without meaning", [], "@BAR@Cells = 4\n", ["mistake.prm:", "Cells = 4"]),
+    ("value of another kind", ["Material/Density = heavy"], None, ["Material/Density", "heavy", "number"]),
+    ("value out of range", ["Discretization/Cut levels = -1"], None, ["Discretization/Cut levels", "-1"]),
+    ("unknown choice", ["Discretization/Method = finite sell"], None, ["Discretization/Method", "finite cell"]),
+    ("unknown material", ["Material/Model = rubber"], None, ["Material/Model", "rubber", "Neo-Hookean"]),
+    ("modulus of zero", ["Material/Young modulus = 0"], None, ["Young modulus", "0"]),
+    ("negative modulus", ["Material/Young modulus = -5"], None, ["Young modulus", "-5"]),
+    ("incompressible", ["Material/Poisson ratio = 0.5"], None, ["Poisson ratio", "0.5"]),
+    ("Poisson ratio of two", ["Material/Poisson ratio = 2"], None, ["Poisson ratio", "2"]),
+    ("radius of zero", ["Geometry/Radius = 0"], None, ["Radius", "0"]),
+    ("missing surface", surface("nowhere.off"), None, ["nowhere.off"]),
+    ("folder for a surface", surface("."), None, ["."]),
+    ("unknown format", surface("surface.xyz"), None, ["surface.xyz"]),
+    ("empty surface", surface("empty.off"), None, ["empty.off"]),
+    ("truncated surface", surface("truncated.off"), None, ["truncated.off"]),
+    ("truncated binary surface", surface("truncated.stl"), None, ["truncated.stl"]),
+    ("junk for a surface", surface("junk.ply"), None, ["junk.ply"]),
+    ("NaN in a surface", surface("nan.off"), None, ["nan.off"]),
+    ("open surface", surface("open.off"), None, ["open.off", "3"]),
+    ("surface that is no manifold", surface("fin.off"), None, ["fin.off"]),
+    ("surface through itself", surface("pierced.off"), None, ["pierced.off"]),
+    ("missing image", image("nowhere.nrrd"), None, ["nowhere.nrrd"]),
+    ("truncated image", image("truncated.nrrd"), None, ["truncated.nrrd"]),
+    ("empty label", image("image.nrrd", "Geometry/Labels = 7"), None, ["image.nrrd", "7", "1"]),
+    ("region that selects nothing", ["Regions/base = z < -1"], None, ["base", "nothing"]),
+    ("region that cannot be read", ["Regions/base = z <"], None, ["base", "z <"]),
+    ("load on no region", ["Loads/side = clamp"], None, ["side", "base", "top"]),
+    ("load of no kind", ["Loads/top = tracktion 0, 0, 1"], None, ["top", "tracktion", "traction"]),
+    ("load without values", ["Loads/top = traction 0, 1"], None, ["top", "traction"]),
+    ("free to move", ["Loads/base = traction 0, 30, 0"], None, ["free"]),
+    ("probe that is no point", ["Probes/tip = 0, 1"], None, ["tip", "0, 1"]),
+    ("probe outside the body", ["Probes/tip = 9, 9, 9"], None, ["tip", "9"]),
+    ("material of no label", [], "@BAR@subsection Material 9\n  set Density = 1\nend\n", ["Material 9"]),
+    ("more memory than there is", ["Discretization/Cells = 5000"], None, ["Cells", "memory"]),
+]

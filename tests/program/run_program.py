@@ -1,0 +1,213 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the whole program and checks what it prints, returns and writes.
+
+usage: run_program.py SOFTCELL GROUP     with a GROUP of command_line, bad_input, ranks, methods
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from bad_inputs import BAD_INPUTS, write_files
+
+MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
+# Of a row of results.csv, what need not be the same on any number of ranks.
+NOT_COMPARED = {"newton_iterations", "linear_iterations", "setup_s", "assembly_s", "solve_s", "total_s",
+                "peak_rss_mib"}
+# A bending bar, small enough to run in a second.
+BAR = """
+subsection Geometry
+  set Type   = cylinder
+  set Radius = 0.05
+  set Length = 0.2
+end
+subsection Regions
+  set base = z < 1e-6
+  set top  = z > 0.2 - 1e-6
+end
+subsection Material
+  set Young modulus = 5000
+  set Poisson ratio = 0.3
+end
+subsection Discretization
+  set Cells      = 4
+  set Cut levels = 2
+  set Mesh size  = 0.025
+end
+subsection Loads
+  set base = clamp
+  set top  = traction 0, -30, 0
+end
+subsection Solver
+  set Residual tolerance = 1e-11
+  set Linear tolerance   = 1e-12
+end
+subsection Probes
+  set tip = 0, 0, 0.2
+end
+"""
+GOOD_SURFACE = """
+subsection Geometry
+  set Type = surface
+end
+subsection Regions
+  set base = z < 1e-6
+end
+subsection Discretization
+  set Cells = 4
+end
+subsection Loads
+  set base = clamp
+end
+"""
+failures = []
+
+
+def check(condition, message):
+    if not condition:
+        failures.append(message)
+        print("FAILED:", message)
+
+
+def softcell(*arguments, ranks=1, folder="."):
+    """Runs the program; its exit status, its output and its error output."""
+    mpi = [] if ranks == 1 else [*MPIRUN, "-n", str(ranks)]
+    run = subprocess.run([*mpi, PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, timeout=600,
+                         stdin=subprocess.DEVNULL, env={**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1"})
+    return run.returncode, run.stdout, run.stderr
+
+
+def rows(file):
+    with open(file, newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def command_line(folder):
+    """Options that only print, and the printed parameters as a parameter file."""
+    status, out, _ = softcell("--help")
+    check(status == 0 and "--print-parameters" in out, "--help says how to use the program")
+    status, out, _ = softcell("--version")
+    check(status == 0 and out.startswith("softcell "), "--version names the version")
+    for arguments in ((), ("--no-such-option",), ("a.prm", "b.prm"), ("a.prm", "--set")):
+        status, _, error = softcell(*arguments)
+        check(status == 1 and error.startswith("softcell: "), f"{arguments} is refused: {status} {error}")
+
+    status, printed, _ = softcell("--print-parameters")
+    check(status == 0 and "set Young modulus" in printed, "--print-parameters lists the entries")
+    (folder / "printed.prm").write_text(printed)
+    status, out, error = softcell("printed.prm", "--check", "--set", "Geometry/Type = sphere", "--set",
+                                  "Regions/base = z < 0.01", "--set", "Loads/base = clamp", folder=folder)
+    check(status == 0, f"printed parameters are a parameter file: {out} {error}")
+    (folder / "bar.prm").write_text(BAR)
+    status, out, error = softcell("bar.prm", "--check", folder=folder)
+    check(status == 0 and "unknowns" in out, f"--check says how large the problem is: {out} {error}")
+    check(not (folder / "runs").exists(), "--check writes nothing")
+    status, out, error = softcell("bar.prm", "--quiet", "--output", "quiet", folder=folder)
+    check(status == 0 and out == "", f"--quiet is quiet: {out} {error}")
+
+    check({"results.csv", "run.json", "solution.pvd", "surface.vtp"} <= set(os.listdir(folder / "quiet")),
+          f"the output folder is complete: {os.listdir(folder / 'quiet')}")
+    record = json.loads((folder / "quiet" / "run.json").read_text())
+    check(record["status"] == "done" and record["parameters"]["Material/Young modulus"] == "5000",
+          "run.json has status and parameters")
+    row = rows(folder / "quiet" / "results.csv")[0]
+    columns = ("case method degree cut_levels cells cut_cells dofs integration_points load_steps newton_iterations "
+               "linear_iterations setup_s assembly_s solve_s total_s peak_rss_mib volume strain_energy "
+               "l2_displacement min_jacobian converged tip_ux tip_uy tip_uz base_fx base_fy base_fz").split()
+    check([c for c in columns if not row.get(c)] == [], f"all columns have values: {row}")
+    area, pull = math.pi * 0.05**2, 30
+    check(abs(float(row["base_fy"]) - pull * area) < 0.02 * pull * area,
+          f"the base holds what the top is loaded with: {row['base_fy']} against {pull * area}")
+
+    status, _, error = softcell("bar.prm", "--set", "Loads/top = traction 0, -1e9, 0", "--set",
+                                "Solver/Load steps = 1", "--output", "far", folder=folder)
+    check(status == 2 and rows(folder / "far" / "results.csv")[0]["converged"] == "false",
+          f"what does not converge has status 2 and is marked: {status} {error}")
+
+
+def bad_input(folder):
+    """Each mistake ends at once with status 1, one sentence that names it, and nothing written."""
+    write_files(folder)
+    (folder / "base.prm").write_text(BAR)
+    for name, settings, text, messages in BAD_INPUTS:
+        file = "base.prm"
+        if text is not None:
+            file = "mistake.prm"
+            (folder / file).write_text(text.replace("@BAR@", BAR))
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        status, out, error = softcell(file, *arguments, "--output", "out", folder=folder)
+        check(status == 1, f"{name}: status {status} in place of 1: {out} {error}")
+        for message in messages:
+            check(message.lower() in error.lower(), f"{name}: '{message}' is not in: {error}")
+        check(error.count("\n") == 1 and "exception" not in error.lower() and "/usr/" not in error,
+              f"{name}: not one sentence: {error}")
+        check(not (folder / "out" / "results.csv").exists(), f"{name}: results were written")
+    (folder / "good.prm").write_text(GOOD_SURFACE)
+    for file, warning in (("good.off", False), ("inside_out.off", True)):
+        status, out, error = softcell("good.prm", "--check", "--set", f"Geometry/File = {file}", folder=folder)
+        check(status == 0 and ("turned" in (out + error).lower()) == warning,
+              f"{file} is repaired where it needs it: {status} {out} {error}")
+    status, _, error = softcell("base.prm", "--set", "Material/Yung modulus = 1", ranks=3, folder=folder)
+    check(status == 1 and error.count("Young modulus") == 1, f"three ranks complain once: {status} {error}")
+
+
+def same_row(one, other, tolerance, what):
+    check(set(one) == set(other), f"{what}: other columns: {set(one) ^ set(other)}")
+    scale = max((abs(float(v)) for k, v in one.items() if k[-3:-1] in ("_u", "_f") and v), default=1)
+    for column in set(one) & set(other) - NOT_COMPARED:
+        a, b = one[column], other[column]
+        try:
+            # components of a vector are as good as its largest one
+            size = scale if column[-3:-1] in ("_u", "_f") else max(abs(float(a)), abs(float(b)))
+            same = abs(float(a) - float(b)) <= tolerance * size
+        except ValueError:
+            same = a == b
+        check(same, f"{what}: {column} is {a} and {b}")
+
+
+def ranks(folder):
+    """One, two and three ranks give the same row to 1e-8."""
+    (folder / "bar.prm").write_text(BAR)
+    for method in ("weighted cell", "finite cell", "sparse grid", "tetrahedra", "hexahedra"):
+        results = []
+        for n in (1, 2, 3):
+            status, out, error = softcell("bar.prm", "--set", f"Discretization/Method = {method}", "--output",
+                                          f"{method}{n}", ranks=n, folder=folder)
+            check(status == 0, f"{method} on {n} ranks: status {status}: {out[-2000:]} {error[-2000:]}")
+            if status == 0:
+                results.append(rows(folder / f"{method}{n}" / "results.csv")[0])
+        for n, row in enumerate(results[1:], 2):
+            same_row(results[0], row, 1e-8, f"{method} on {n} ranks")
+
+
+def methods(folder):
+    """A study over methods fills a row for each, and all agree on the deflection as they should on a coarse grid."""
+    (folder / "study.prm").write_text(BAR + """
+subsection Study
+  set Methods   = finite cell, weighted cell, tetrahedra 2
+  set Cells     = 6
+  set Reference = Discretization/Method = tetrahedra; Discretization/Degree = 2; Discretization/Mesh size = 0.016
+end
+""")
+    status, out, error = softcell("study.prm", "--output", "study", folder=folder)
+    check(status == 0, f"study: status {status}: {out[-2000:]} {error[-2000:]}")
+    table = rows(folder / "study" / "results.csv") if status == 0 else []
+    check(len(table) >= 3, f"study: {len(table)} rows")
+    for row in table:
+        check(row["converged"] == "true", f"{row['method']} converged")
+        check(float(row["relative_l2_error"] or 0) < 0.1, f"{row['method']}: error {row['relative_l2_error']}")
+
+
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
+PROGRAM = os.path.abspath(sys.argv[1])
+with tempfile.TemporaryDirectory() as temporary:
+    {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "methods": methods}[sys.argv[2]](
+        pathlib.Path(temporary))
+print(f"{len(failures)} failures")
+sys.exit(1 if failures else 0)
