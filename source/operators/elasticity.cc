@@ -124,7 +124,7 @@ namespace softcell
         for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
           tangent.add(law, deformed, point, F);
         });
-      K.add(patch.nodes, tangent.values(patch.n_nodes()));
+      K.add(patch.nodes, tangent.values());
     });
     throw_if_inverted(n_inverted, discretization_.communicator());
   }

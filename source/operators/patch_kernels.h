@@ -7,6 +7,7 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <algorithm>
 #include <experimental/simd>
 
 namespace softcell
@@ -15,6 +16,7 @@ namespace softcell
   using Pack     = stdx::native_simd<double>;
 
   constexpr unsigned int width = Pack::size();
+  static_assert(width % 2 == 0, "Rows of the tangent are integrated in pairs.");
 
   /// Numbers that packs are loaded from and stored to at multiples of the width.
   using PackedArray = dealii::AlignedVector<double>;
@@ -141,9 +143,10 @@ namespace softcell
     void reinit(const DeformedPatch &deformed)
     {
       n_points_ = 0;
+      n_        = deformed.patch().n_nodes();
       n_padded_ = deformed.n_padded();
-      blocks_.resize_fast(6 * n_padded_ * n_padded_);
-      blocks_.fill(0.);
+      values_.resize_fast(9 * n_padded_ * n_padded_);
+      values_.fill(0.);
       gradients_.resize_fast(batch * 3 * n_padded_);
       stresses_.resize_fast(batch * 18 * n_padded_);
     }
@@ -182,40 +185,43 @@ namespace softcell
         contract();
     }
 
-    /// (3, n, 3, n): row component, row node, column component, column node.
-    const double *values(const unsigned int n)
+    /// (3, n, 3, n): row component, row node, column component, column node. It ends the
+    /// integration.
+    const double *values()
     {
       contract();
-      values_.resize(9 * n * n);
-      double *value = values_.data();
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int b = 0; b < 3; ++b)
-            for (unsigned int j = 0; j < n; ++j)
-              *value++ = a <= b ? block(a, b, i)[j] : block(b, a, j)[i];
+      for (unsigned int b = 0; b < 3; ++b)
+        for (unsigned int a = 0; a < b; ++a)
+          for (unsigned int i = 0; i < n_; ++i)
+            for (unsigned int j = 0; j < n_; ++j)
+              row(b, i, a)[j] = row(a, j, b)[i];
+      if (n_ != n_padded_)
+      {
+        double *value = values_.data();
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int i = 0; i < n_; ++i)
+            for (unsigned int b = 0; b < 3; ++b)
+              value = std::copy_n(row(a, i, b), n_, value);
+      }
       return values_.data();
     }
 
   private:
     static constexpr unsigned int batch = 8;
 
-    /// Row i of block (a, b), a <= b, over all nodes j.
-    double *block(const unsigned int a, const unsigned int b, const unsigned int i)
+    /// The couplings of component a of node i with component b of all nodes.
+    double *row(const unsigned int a, const unsigned int i, const unsigned int b)
     {
-      return &blocks_[(i * 6 + b * (b + 1) / 2 + a) * n_padded_];
+      return &values_[((a * n_padded_ + i) * 3 + b) * n_padded_];
     }
 
-    /// Adds the batch to the blocks and empties it.
+    /// Adds the batch to the blocks a <= b and empties it.
     void contract()
     {
       for (unsigned int j = 0; j < n_padded_; j += width)
-        for (unsigned int i = 0; i < n_padded_; i += 2)
+        for (unsigned int i = 0; i < n_; i += 2)
         {
-          double *const rows = &blocks_[i * 6 * n_padded_ + j];
-          Pack sums[2][6]; // two rows, six blocks: what fits into the registers
-#pragma GCC unroll 12
-          for (unsigned int k = 0; k < 12; ++k)
-            sums[k / 6][k % 6] = load(rows + k * n_padded_);
+          Pack sums[2][6] = {}; // two rows, six blocks: what fits into the registers
           for (unsigned int point = 0; point < n_points_; ++point)
           {
             const double *const g      = &gradients_[point * 3 * n_padded_ + i];
@@ -230,17 +236,24 @@ namespace softcell
                 sums[1][k] += g[A * n_padded_ + 1] * dP;
               }
           }
-#pragma GCC unroll 12
-          for (unsigned int k = 0; k < 12; ++k)
-            sums[k / 6][k % 6].copy_to(rows + k * n_padded_, stdx::vector_aligned);
+#pragma GCC unroll 2
+          for (unsigned int r = 0; r < 2; ++r)
+#pragma GCC unroll 3
+            for (unsigned int b = 0; b < 3; ++b)
+#pragma GCC unroll 3
+              for (unsigned int a = 0; a <= b; ++a)
+              {
+                double *const values = row(a, i + r, b) + j;
+                (load(values) + sums[r][b * (b + 1) / 2 + a]).copy_to(values, stdx::vector_aligned);
+              }
         }
       n_points_ = 0;
     }
 
-    unsigned int n_padded_ = 0, n_points_ = 0; // of the batch
-    PackedArray gradients_;                    // (batch, 3, n_padded) times weight
-    PackedArray stresses_;                     // (n_padded / width, batch, 6 blocks, 3, width)
-    PackedArray blocks_;                       // (n_padded, 6 blocks, n_padded)
-    std::vector<double> values_;
+    unsigned int n_ = 0, n_padded_ = 0;
+    unsigned int n_points_ = 0; // in the batch
+    PackedArray gradients_;     // (batch, 3, n_padded) times weight
+    PackedArray stresses_;      // (n_padded / width, batch, 6 blocks, 3, width)
+    PackedArray values_;        // (3, n_padded, 3, n_padded), for a <= b only until the end
   };
 } // namespace softcell
