@@ -18,8 +18,7 @@ namespace softcell
 {
   namespace
   {
-    std::string
-    in_short(const double number)
+    std::string in_short(const double number)
     {
       std::ostringstream text;
       text.precision(2);
@@ -30,10 +29,9 @@ namespace softcell
     class Jacobi : public ApproximateInverse
     {
     public:
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> & /*positions*/,
-                 const std::vector<unsigned int> & /*constrained*/) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> & /*positions*/,
+                      const std::vector<unsigned int> & /*constrained*/) override
       {
         const Partitioner &unknowns = *matrix.partitioner();
         const unsigned int n_owned  = unknowns.locally_owned_size() / 3;
@@ -56,8 +54,7 @@ namespace softcell
         }
       }
 
-      void
-      vmult(Vector &y, const Vector &x) const override
+      void vmult(Vector &y, const Vector &x) const override
       {
         std::transform(inverse_diagonal_.begin(), inverse_diagonal_.end(), x.begin(), y.begin(),
                        std::multiplies<>());
@@ -70,17 +67,15 @@ namespace softcell
     class DirectSolver : public LinearSolver
     {
     public:
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> &positions,
-                 const std::vector<unsigned int> &constrained) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> &positions,
+                      const std::vector<unsigned int> &constrained) override
       {
         matrix_ = &matrix;
         factors_->set_matrix(matrix, positions, constrained);
       }
 
-      unsigned int
-      solve(Vector &x, const Vector &b) const override
+      unsigned int solve(Vector &x, const Vector &b) const override
       {
         x.zero_out_ghost_values();
         factors_->vmult(x, b);
@@ -95,8 +90,7 @@ namespace softcell
         return 1;
       }
 
-      const std::vector<double> &
-      history() const override
+      const std::vector<double> &history() const override
       {
         return history_;
       }
@@ -118,10 +112,9 @@ namespace softcell
       {
       }
 
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> &positions,
-                 const std::vector<unsigned int> &constrained) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> &positions,
+                      const std::vector<unsigned int> &constrained) override
       {
         matrix_ = &matrix;
         if (inverse_)
@@ -130,15 +123,13 @@ namespace softcell
 
       unsigned int solve(Vector &x, const Vector &b) const override;
 
-      const std::vector<double> &
-      history() const override
+      const std::vector<double> &history() const override
       {
         return history_;
       }
 
     private:
-      [[noreturn]] void
-      fail(const std::string &what) const
+      [[noreturn]] void fail(const std::string &what) const
       {
         throw NotConverged("conjugate gradients with the preconditioner " +
                            parameters_.preconditioner + ' ' + what);
@@ -150,8 +141,7 @@ namespace softcell
       mutable std::vector<double> history_;
     };
 
-    unsigned int
-    ConjugateGradients::solve(Vector &x, const Vector &b) const
+    unsigned int ConjugateGradients::solve(Vector &x, const Vector &b) const
     {
       history_.clear();
       x.zero_out_ghost_values();
@@ -196,8 +186,7 @@ namespace softcell
     }
   } // namespace
 
-  void
-  LinearSolverParameters::add_parameters(dealii::ParameterHandler &prm)
+  void LinearSolverParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Linear solver", solver,
                       "Conjugate gradients, or a direct factorisation by MUMPS, which needs much "
@@ -220,10 +209,9 @@ namespace softcell
                       dealii::Patterns::Integer(1));
   }
 
-  std::vector<Vector>
-  rigid_body_modes(const std::shared_ptr<const Partitioner> &unknowns,
-                   const std::vector<Point> &positions,
-                   const std::vector<unsigned int> &constrained)
+  std::vector<Vector> rigid_body_modes(const std::shared_ptr<const Partitioner> &unknowns,
+                                       const std::vector<Point> &positions,
+                                       const std::vector<unsigned int> &constrained)
   {
     const unsigned int n_owned = unknowns->locally_owned_size() / 3;
     Direction center;
@@ -258,8 +246,7 @@ namespace softcell
     return modes;
   }
 
-  std::unique_ptr<LinearSolver>
-  make_linear_solver(const LinearSolverParameters &parameters)
+  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters)
   {
     if (parameters.solver == "direct")
       return std::make_unique<DirectSolver>();

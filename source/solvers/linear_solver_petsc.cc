@@ -15,8 +15,7 @@ namespace softcell
 {
   namespace
   {
-    void
-    check_petsc(const PetscErrorCode error)
+    void check_petsc(const PetscErrorCode error)
     {
       if (error != 0)
         throw std::runtime_error("PETSc failed with error " + std::to_string(error) + '.');
@@ -35,10 +34,9 @@ namespace softcell
         MatDestroy(&matrix_);
       }
 
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> &positions,
-                 const std::vector<unsigned int> &constrained) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> &positions,
+                      const std::vector<unsigned int> &constrained) override
       {
         if (matrix_ == nullptr)
         {
@@ -60,8 +58,7 @@ namespace softcell
           throw NotConverged("PETSc cannot factorise the matrix: it is singular or memory ran out");
       }
 
-      void
-      vmult(Vector &y, const Vector &x) const override
+      void vmult(Vector &y, const Vector &x) const override
       {
         check_petsc(VecPlaceArray(x_, x.begin()));
         check_petsc(VecPlaceArray(y_, y.begin()));
@@ -82,8 +79,7 @@ namespace softcell
       Vec x_ = nullptr, y_ = nullptr; // without memory of their own
     };
 
-    void
-    PETScInverse::create_matrix(const BlockMatrix &matrix)
+    void PETScInverse::create_matrix(const BlockMatrix &matrix)
     {
       const Partitioner &unknowns = *matrix.partitioner();
       const MPI_Comm communicator = unknowns.get_mpi_communicator();
@@ -109,8 +105,7 @@ namespace softcell
           VecCreateMPIWithArray(communicator, 3, n_rows, unknowns.size(), nullptr, vector));
     }
 
-    void
-    PETScInverse::create_inverse()
+    void PETScInverse::create_inverse()
     {
       MPI_Comm communicator;
       check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix_), &communicator));
@@ -135,8 +130,7 @@ namespace softcell
       }
     }
 
-    void
-    PETScInverse::set_near_null_space(const std::vector<Vector> &modes)
+    void PETScInverse::set_near_null_space(const std::vector<Vector> &modes)
     {
       std::vector<Vec> vectors(modes.size());
       for (unsigned int m = 0; m < modes.size(); ++m)
@@ -157,8 +151,7 @@ namespace softcell
     }
 
     /// The blocks of block Jacobi exist only after PCSetUp().
-    void
-    PETScInverse::set_up_incomplete_cholesky()
+    void PETScInverse::set_up_incomplete_cholesky()
     {
       KSP *blocks;
       PetscInt n_blocks;
@@ -174,8 +167,7 @@ namespace softcell
     }
   } // namespace
 
-  std::unique_ptr<ApproximateInverse>
-  make_petsc_inverse(const Approximation approximation)
+  std::unique_ptr<ApproximateInverse> make_petsc_inverse(const Approximation approximation)
   {
     return std::make_unique<PETScInverse>(approximation);
   }

@@ -22,8 +22,7 @@ namespace softcell
 {
   namespace
   {
-    void
-    check_trilinos(const int error, const std::string &what)
+    void check_trilinos(const int error, const std::string &what)
     {
       if (error < 0)
         throw NotConverged(what + " of Trilinos failed with error " + std::to_string(error));
@@ -57,8 +56,7 @@ namespace softcell
 
       /// Takes the values, three runs of memory to a row: of this rank's columns, of those before,
       /// of those after.
-      void
-      copy(const BlockMatrix &matrix)
+      void copy(const BlockMatrix &matrix)
       {
         const auto [first, end] = matrix.partitioner()->local_range();
         int *row_start, *columns;
@@ -81,21 +79,18 @@ namespace softcell
         }
       }
 
-      Epetra_CrsMatrix &
-      operator*()
+      Epetra_CrsMatrix &operator*()
       {
         return matrix_;
       }
 
-      Epetra_Vector
-      view(const Vector &vector) const
+      Epetra_Vector view(const Vector &vector) const
       {
         return {::View, rows_, const_cast<double *>(vector.begin())};
       }
 
     private:
-      Epetra_Map
-      column_map(const BlockMatrix &matrix) const
+      Epetra_Map column_map(const BlockMatrix &matrix) const
       {
         const auto [first, end] = matrix.partitioner()->local_range();
         std::vector<int> columns, others;
@@ -111,8 +106,7 @@ namespace softcell
         return {-1, int(columns.size()), columns.data(), 0, communicator_};
       }
 
-      static std::vector<int>
-      row_lengths(const BlockMatrix &matrix)
+      static std::vector<int> row_lengths(const BlockMatrix &matrix)
       {
         std::vector<int> lengths(matrix.partitioner()->locally_owned_size());
         for (unsigned int row = 0; row < lengths.size(); ++row)
@@ -125,8 +119,7 @@ namespace softcell
       Epetra_CrsMatrix matrix_;
     };
 
-    void
-    copy_or_create(std::unique_ptr<EpetraMatrix> &copy, const BlockMatrix &matrix)
+    void copy_or_create(std::unique_ptr<EpetraMatrix> &copy, const BlockMatrix &matrix)
     {
       if (copy)
         copy->copy(matrix);
@@ -137,10 +130,9 @@ namespace softcell
     class IncompleteCholesky : public ApproximateInverse
     {
     public:
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> & /*positions*/,
-                 const std::vector<unsigned int> & /*constrained*/) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> & /*positions*/,
+                      const std::vector<unsigned int> & /*constrained*/) override
       {
         copy_or_create(matrix_, matrix);
         if (!inverse_)
@@ -151,8 +143,7 @@ namespace softcell
         check_trilinos(inverse_->Compute(), "Incomplete Cholesky");
       }
 
-      void
-      vmult(Vector &y, const Vector &x) const override
+      void vmult(Vector &y, const Vector &x) const override
       {
         Epetra_Vector target = matrix_->view(y);
         check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Incomplete Cholesky");
@@ -166,13 +157,13 @@ namespace softcell
     class SmoothedAggregation : public ApproximateInverse
     {
     public:
-      void
-      set_matrix(const BlockMatrix &matrix,
-                 const std::vector<Point> &positions,
-                 const std::vector<unsigned int> &constrained) override
+      void set_matrix(const BlockMatrix &matrix,
+                      const std::vector<Point> &positions,
+                      const std::vector<unsigned int> &constrained) override
       {
         copy_or_create(matrix_, matrix);
         null_space_.clear();
+        null_space_.reserve(1); // ML wants a pointer even on a rank without nodes
         const auto modes = rigid_body_modes(matrix.partitioner(), positions, constrained);
         for (const Vector &mode : modes)
           null_space_.insert(null_space_.end(), mode.begin(),
@@ -192,8 +183,7 @@ namespace softcell
         inverse_ = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(**matrix_, list);
       }
 
-      void
-      vmult(Vector &y, const Vector &x) const override
+      void vmult(Vector &y, const Vector &x) const override
       {
         Epetra_Vector target = matrix_->view(y);
         check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Multigrid");
@@ -206,8 +196,7 @@ namespace softcell
     };
   } // namespace
 
-  std::unique_ptr<ApproximateInverse>
-  make_trilinos_inverse(const Approximation approximation)
+  std::unique_ptr<ApproximateInverse> make_trilinos_inverse(const Approximation approximation)
   {
     if (approximation == Approximation::multigrid)
       return std::make_unique<SmoothedAggregation>();

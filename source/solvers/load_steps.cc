@@ -10,8 +10,7 @@
 
 namespace softcell
 {
-  void
-  LoadStepParameters::add_parameters(dealii::ParameterHandler &prm)
+  void LoadStepParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter(
       "Load steps", steps,
@@ -23,8 +22,7 @@ namespace softcell
                       dealii::Patterns::Double(0., 1.));
   }
 
-  unsigned int
-  LoadStepParameters::n_steps() const
+  unsigned int LoadStepParameters::n_steps() const
   {
     if (steps == "adaptive")
       return 0;
@@ -36,15 +34,14 @@ namespace softcell
     return number;
   }
 
-  LoadHistory
-  follow_load(const NonlinearProblem &problem,
-              const NewtonParameters &newton,
-              const LoadStepParameters &parameters,
-              const std::function<void(double)> &set_load,
-              Vector &u,
-              const std::function<void(const LoadStep &)> &report_step,
-              const std::function<void(const NewtonIteration &)> &report_iteration,
-              const std::function<void(const LoadStep &, const Vector &)> &accepted)
+  LoadHistory follow_load(const NonlinearProblem &problem,
+                          const NewtonParameters &newton,
+                          const LoadStepParameters &parameters,
+                          const std::function<void(double)> &set_load,
+                          Vector &u,
+                          const std::function<void(const LoadStep &)> &report_step,
+                          const std::function<void(const NewtonIteration &)> &report_iteration,
+                          const std::function<void(const LoadStep &, const Vector &)> &accepted)
   {
     constexpr unsigned int easy = 6; // Newton iterations
     const unsigned int n_steps  = parameters.n_steps();

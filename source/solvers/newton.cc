@@ -7,16 +7,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace softcell
 {
   namespace
   {
-    // Newton gives up after this many steps in a row that the line search had to make shorter than
-    // this.
-    constexpr unsigned int max_short_steps = 5;
-    constexpr double short_step            = 1. / 8;
+    // Newton gives up after this many steps in a row each of which the line search made shorter
+    // than `short_step`, or which leave the residual above `progress` times the smallest so far.
+    constexpr unsigned int max_poor_steps = 8;
+    constexpr double short_step           = 1. / 8;
+    constexpr double progress             = 0.9;
 
     /// One run of newton_raphson(): the point reached, with its residual, and the step to the next.
     class Newton
@@ -50,6 +52,8 @@ namespace softcell
       };
 
       void look_what_is_missing();
+      bool has_converged() const;
+      bool is_poor(const NewtonIteration &iteration);
       bool evaluate_trial(double step);
       Step search_line(NewtonIteration &iteration);
 
@@ -58,12 +62,12 @@ namespace softcell
 
       Vector &u_;
       Vector r_, missing_, du_, trial_u_, trial_r_;
-      double scale_  = 0;     // of forces, at u
-      bool entering_ = false; // part of the imposed values is still missing
+      double scale_             = 0;     // of forces, at u
+      bool entering_            = false; // part of the imposed values is still missing
+      double smallest_residual_ = std::numeric_limits<double>::max();
     };
 
-    void
-    Newton::look_what_is_missing()
+    void Newton::look_what_is_missing()
     {
       scale_    = problem_.force_scale(u_);
       entering_ = false;
@@ -77,11 +81,10 @@ namespace softcell
 
     /// The residual at u + step du; false if a point is inverted there or the residual is not
     /// finite.
-    bool
-    Newton::evaluate_trial(const double step)
+    bool Newton::evaluate_trial(const double step)
     {
-      trial_u_ = u_;
       trial_u_.zero_out_ghost_values();
+      std::copy_n(u_.begin(), u_.locally_owned_size(), trial_u_.begin());
       trial_u_.add(step, du_);
       trial_u_.update_ghost_values();
       try
@@ -97,8 +100,7 @@ namespace softcell
 
     /// Halves the step until nothing is inverted and the step gains something: the residual gets
     /// smaller, or the energy, whose slope along the step is du . r, goes down.
-    Newton::Step
-    Newton::search_line(NewtonIteration &iteration)
+    Newton::Step Newton::search_line(NewtonIteration &iteration)
     {
       const double residual = r_.l2_norm(), slope = du_ * r_;
       const double length = du_.l2_norm(), u_norm = u_.l2_norm();
@@ -130,10 +132,27 @@ namespace softcell
       return Step::rejected;
     }
 
-    NewtonResult
-    Newton::run(const std::function<void(const NewtonIteration &)> &report)
+    bool Newton::has_converged() const
+    {
+      return !entering_ && r_.l2_norm() <= parameters_.residual_tolerance * scale_;
+    }
+
+    /// Whether the step that led to u gained little.
+    bool Newton::is_poor(const NewtonIteration &iteration)
+    {
+      const double residual = r_.l2_norm();
+      const bool poor =
+        iteration.step < short_step || (!entering_ && residual > progress * smallest_residual_);
+      // A residual from before all imposed values were in is no measure.
+      if (!entering_)
+        smallest_residual_ = std::min(residual, smallest_residual_);
+      return poor;
+    }
+
+    NewtonResult Newton::run(const std::function<void(const NewtonIteration &)> &report)
     {
       NewtonResult result;
+      u_.update_ghost_values();
       if (!evaluate_trial(0.))
       {
         result.reason = "a point is inverted before the first iteration";
@@ -141,20 +160,10 @@ namespace softcell
       }
       r_.swap(trial_r_);
       look_what_is_missing();
+      result.converged = has_converged();
 
-      unsigned int short_steps = 0;
-      while (!result.converged)
+      for (unsigned int poor_steps = 0; !result.converged && result.reason.empty();)
       {
-        if (!entering_ && r_.l2_norm() <= parameters_.residual_tolerance * scale_)
-        {
-          result.converged = true;
-          break;
-        }
-        if (result.iterations == parameters_.max_iterations)
-        {
-          result.reason = "not converged in " + std::to_string(result.iterations) + " iterations";
-          break;
-        }
         NewtonIteration iteration;
         iteration.iteration = ++result.iterations;
         try
@@ -180,21 +189,22 @@ namespace softcell
         if (report)
           report(iteration);
 
-        result.converged = step == Step::last;
-        short_steps      = iteration.step < short_step ? short_steps + 1 : 0;
+        result.converged = step == Step::last || (step == Step::accepted && has_converged());
+        poor_steps       = is_poor(iteration) ? poor_steps + 1 : 0;
+        if (result.converged)
+          break;
         if (step == Step::rejected)
           result.reason = "no step along Newton's direction gains anything";
-        else if (short_steps == max_short_steps)
-          result.reason = "the line search takes ever shorter steps";
-        if (!result.reason.empty())
-          break;
+        else if (poor_steps == max_poor_steps)
+          result.reason = std::to_string(poor_steps) + " Newton steps in a row gained little";
+        else if (result.iterations == parameters_.max_iterations)
+          result.reason = std::to_string(result.iterations) + " Newton iterations were not enough";
       }
       return result;
     }
   } // namespace
 
-  void
-  NewtonParameters::add_parameters(dealii::ParameterHandler &prm)
+  void NewtonParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Residual tolerance", residual_tolerance,
                       "A step has converged when the residual is this small relative to the forces "
@@ -213,11 +223,10 @@ namespace softcell
                       dealii::Patterns::Integer(0, 50));
   }
 
-  NewtonResult
-  newton_raphson(const NonlinearProblem &problem,
-                 const NewtonParameters &parameters,
-                 Vector &u,
-                 const std::function<void(const NewtonIteration &)> &report)
+  NewtonResult newton_raphson(const NonlinearProblem &problem,
+                              const NewtonParameters &parameters,
+                              Vector &u,
+                              const std::function<void(const NewtonIteration &)> &report)
   {
     return Newton(problem, parameters, u).run(report);
   }

@@ -30,8 +30,7 @@ namespace
     std::vector<unsigned int> held; // owned local unknowns
     std::unique_ptr<BlockMatrix> matrix;
 
-    Point
-    position(const unsigned int node) const
+    Point position(const unsigned int node) const
     {
       return Point(node % (n + 1), node / (n + 1) % (n + 1), node / (n + 1) / (n + 1));
     }
@@ -46,10 +45,11 @@ namespace
 
       dealii::IndexSet owned(3 * n_nodes), ghosts(3 * n_nodes);
       owned.add_range(3 * plane * first, 3 * plane * end);
-      if (end < n + 1 && first < end)
+      const unsigned int top = first < end ? std::min(end + 1, n + 1) : end; // ghosts included
+      if (top > end)
         ghosts.add_range(3 * plane * end, 3 * plane * (end + 1));
       unknowns = std::make_shared<const Partitioner>(owned, ghosts, MPI_COMM_WORLD);
-      for (unsigned int node = plane * first; node < plane * std::min(end + 1, n + 1); ++node)
+      for (unsigned int node = plane * first; node < plane * top; ++node)
         positions.push_back(position(node));
 
       for (unsigned int z = 0; z < std::min(end, n) - std::min(first, n); ++z)
@@ -60,7 +60,7 @@ namespace
             for (unsigned int v = 0; v < 8; ++v)
               cells.back().push_back((z + v / 4) * plane + (y + v / 2 % 2) * (n + 1) + x + v % 2);
           }
-      if (first == 0)
+      if (first == 0 && end > 0)
         for (unsigned int i = 0; i < 3 * plane; ++i)
           held.push_back(i);
 
@@ -68,8 +68,7 @@ namespace
       assemble(shift);
     }
 
-    void
-    assemble(const double shift)
+    void assemble(const double shift)
     {
       matrix->set_zero();
       for (const std::vector<unsigned int> &cell : cells)
@@ -92,8 +91,7 @@ namespace
     }
 
     /// Some displacement that is zero where the lattice is held.
-    Vector
-    displacement() const
+    Vector displacement() const
     {
       Vector u(unknowns);
       for (unsigned int i = 0; i < unknowns->locally_owned_size(); ++i)
@@ -104,8 +102,7 @@ namespace
     }
 
     /// The iterations that a solver takes, whose solution is compared with the displacement.
-    unsigned int
-    expect_solution(LinearSolver &solver, const double tolerance) const
+    unsigned int expect_solution(LinearSolver &solver, const double tolerance) const
     {
       const Vector u = displacement();
       Vector b(unknowns), x(unknowns);
@@ -118,10 +115,9 @@ namespace
     }
   };
 
-  LinearSolverParameters
-  parameters(const std::string &solver,
-             const std::string &preconditioner,
-             const std::string &backend)
+  LinearSolverParameters parameters(const std::string &solver,
+                                    const std::string &preconditioner,
+                                    const std::string &backend)
   {
     LinearSolverParameters result;
     result.solver         = solver;
