@@ -12,14 +12,16 @@
 
 namespace softcell
 {
-  /// A force that may depend on the displacement. `t` is the load factor of a static run (1 at full load) or the
-  /// time. Forces are prepared once for a discretization and then only evaluated.
+  /// A force that may depend on the displacement. `t` is the load factor of a static run (1 at full
+  /// load) or the time. Forces are prepared once for a discretization and then only evaluated.
   class Load
   {
   public:
     virtual ~Load() = default;
 
     /// Subtracts the external force at (u, t) from r. Ghosted u; the caller compresses r.
+    /// Collective.
+    /// @throws InvertedPoint on all ranks, from a support that needs the stress.
     virtual void add_residual(const Vector &u, double t, Vector &r) const = 0;
 
     /// Adds d residual / du to K, nothing for a dead load.
@@ -28,13 +30,15 @@ namespace softcell
     /// Lists of nodes that the tangent couples beyond those of single patches.
     virtual void add_couplings(std::vector<std::vector<unsigned int>> & /*couplings*/) const {}
 
-    /// Potential energy -int f . u of a dead load, and 1/2 k |u - g|^2 of a penalty; 0 where there is none.
+    /// Potential energy, -int f . u of a dead load and 1/2 k |u - g|^2 of a penalty; 0 where there
+    /// is none. Collective.
     virtual double energy(const Vector & /*u*/, double /*t*/) const
     {
       return 0;
     }
 
-    /// The force with which this load acts on the body at (u, t): for a support, its reaction. Collective. Units: N
+    /// The force with which this load acts on the body at (u, t): for a support, its reaction.
+    /// Collective. Units: N
     virtual Direction total_force(const Vector &u, double t) const = 0;
 
     /// Name of the region that it acts on, "gravity" for weight.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A scalar or vector that the user gives as expressions of x, y, z and t.
+
+#include <softcell/loads/expression.h>
+
+#include <softcell/base/exceptions.h>
+
+#include <array>
+#include <muParser.h>
+#include <vector>
+
+namespace softcell
+{
+  struct Expression::Formulas
+  {
+    std::array<double, 4> variables{}; // x, y, z, t
+    std::vector<mu::Parser> parsers;   // one per component
+    std::vector<bool> is_free;
+    bool uses_time = false;
+  };
+
+  namespace
+  {
+    std::string trimmed(const std::string &text)
+    {
+      const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+      return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+    }
+
+    /// The parts between those commas that are not inside parentheses.
+    std::vector<std::string> split(const std::string &text)
+    {
+      std::vector<std::string> parts(1);
+      int depth = 0;
+      for (const char c : text)
+      {
+        depth += (c == '(') - (c == ')');
+        if (c == ',' && depth == 0)
+          parts.emplace_back();
+        else
+          parts.back() += c;
+      }
+      for (std::string &part : parts)
+        part = trimmed(part);
+      return parts;
+    }
+  } // namespace
+
+  Expression::Expression(const std::string &text,
+                         const unsigned int n_components,
+                         const std::string &place)
+      : place_(place), formulas_(std::make_unique<Formulas>())
+  {
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != n_components)
+      throw BadInput(place + " has " + std::to_string(parts.size()) + " components; give " +
+                     std::to_string(n_components) +
+                     (n_components == 1 ? " expression" : " expressions separated by commas") +
+                     " of x, y, z and t.");
+    static const std::array<const char *, 4> names = {{"x", "y", "z", "t"}};
+    for (const std::string &part : parts)
+    {
+      mu::Parser &parser = formulas_->parsers.emplace_back();
+      formulas_->is_free.push_back(part == "free");
+      for (unsigned int i = 0; i < names.size(); ++i)
+        parser.DefineVar(names[i], &formulas_->variables[i]);
+      parser.DefineConst("pi", dealii::numbers::PI);
+      try
+      {
+        parser.SetExpr(part == "free" ? "0" : part);
+        parser.Eval();
+        formulas_->uses_time |= parser.GetUsedVar().count("t") > 0;
+      }
+      catch (const mu::Parser::exception_type &error)
+      {
+        throw BadInput(place + " has '" + part + "', which cannot be read: " + error.GetMsg() +
+                       " Give an expression of x, y, z and t such as '30 * sin(pi * t)'.");
+      }
+    }
+  }
+
+  Expression::~Expression()                      = default;
+  Expression::Expression(Expression &&) noexcept = default;
+
+  Direction Expression::value(const Point &X, const double t) const
+  {
+    formulas_->variables = {{X[0], X[1], X[2], t}};
+    Direction result;
+    for (unsigned int c = 0; c < formulas_->parsers.size(); ++c)
+      result[c] = formulas_->parsers[c].Eval();
+    return result;
+  }
+
+  Direction Expression::at_load_factor(const Point &X, const double t) const
+  {
+    return formulas_->uses_time ? value(X, t) : t * value(X, t);
+  }
+
+  bool Expression::uses_time() const
+  {
+    return formulas_->uses_time;
+  }
+
+  bool Expression::is_free(const unsigned int component) const
+  {
+    return formulas_->is_free[component];
+  }
+} // namespace softcell

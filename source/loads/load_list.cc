@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The parameter section Loads, and the loads that it describes.
+
+#include <softcell/loads/load_list.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/base/parameters.h>
+#include <softcell/loads/dead_loads.h>
+#include <softcell/loads/nodal_mapping.h>
+#include <softcell/loads/pressure.h>
+#include <softcell/loads/rigid_modes.h>
+#include <softcell/loads/supports.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace softcell
+{
+  namespace
+  {
+    using Kind = LoadDescription::Kind;
+
+    struct KindName
+    {
+      std::string name;
+      Kind kind;
+      unsigned int n_components;
+      std::string usage;
+    };
+
+    const std::vector<KindName> kinds = {
+      {"clamp", Kind::displacement, 3, "clamp"},
+      {"displacement", Kind::displacement, 3, "displacement 0, free, 0.01 (m)"},
+      {"traction", Kind::traction, 3, "traction 0, -30, 0 (Pa)"},
+      {"pressure", Kind::pressure, 1, "pressure 1733 (Pa, inward)"},
+      {"springs", Kind::springs, 1, "springs 1e6 (Pa/m)"}};
+
+    std::string trimmed(const std::string &text)
+    {
+      const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+      return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+    }
+
+    /// "; did you mean 'x'?" if there is a near word.
+    std::string suggestion(const std::string &word, const std::vector<std::string> &known)
+    {
+      const std::string nearest = nearest_word(word, known);
+      return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+    }
+
+    std::string joined(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : ", ") + word;
+      return text;
+    }
+
+    /// One load, `kind value`.
+    LoadDescription parse_load(const std::string &region, const std::string &text)
+    {
+      const std::string place = "Loads/" + region + " = '" + text + "'";
+      const auto end_of_word  = std::min(text.find_first_of(" \t"), text.size());
+      const std::string word  = text.substr(0, end_of_word),
+                        value = trimmed(text.substr(end_of_word));
+
+      std::vector<std::string> names, usages;
+      for (const KindName &kind : kinds)
+      {
+        names.push_back(kind.name);
+        usages.push_back("'" + kind.usage + "'");
+      }
+      const auto kind = std::find(names.begin(), names.end(), word) - names.begin();
+      if (kind == std::ptrdiff_t(kinds.size()))
+        throw BadInput(place + " names no kind of load; give for example " + joined(usages) +
+                       suggestion(word, names));
+
+      const bool is_clamp = word == "clamp";
+      if (is_clamp && !value.empty())
+        throw BadInput(place + " has a value, but a clamp takes none; for a given displacement "
+                               "write 'displacement ux, uy, uz'.");
+      const KindName &found = kinds[kind];
+      LoadDescription load{region, found.kind, is_clamp ? "0, 0, 0" : value, place};
+      const Expression expression(load.value, found.n_components, place);
+      unsigned int n_free = 0;
+      for (unsigned int c = 0; c < found.n_components; ++c)
+        n_free += expression.is_free(c);
+      if (n_free > 0 && load.kind != Kind::displacement)
+        throw BadInput(place + " has a component 'free', which only a displacement may have; "
+                               "write 0.");
+      if (n_free == found.n_components)
+        throw BadInput(place + " leaves every component free; give at least one a value.");
+      return load;
+    }
+
+    const Region &find_region(const std::string &name, const std::vector<Region> &regions)
+    {
+      for (const Region &region : regions)
+        if (region.name() == name)
+          return region;
+      std::vector<std::string> names;
+      for (const Region &region : regions)
+        names.push_back(region.name());
+      throw BadInput("Loads/" + name + " names a region that the section Regions does not have (" +
+                     (names.empty() ? "it is empty" : "it has " + joined(names)) +
+                     "); define it there or mend the name" + suggestion(name, names));
+    }
+  } // namespace
+
+  void LoadParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii;
+    prm.add_parameter("Gravity", gravity,
+                      "Units: m/s^2. Three numbers, e.g. 0, 0, -9.81; with the material's density "
+                      "it gives the weight.");
+    prm.add_parameter("Imposed displacement", imposition,
+                      "How displacements are imposed: on the unknowns of nodes (strong, where the "
+                      "region coincides with faces of cells), by penalty or by Nitsche's method; "
+                      "automatic is strong where that is possible and Nitsche elsewhere (penalty "
+                      "if the surface integration is nodal).",
+                      Patterns::Selection("automatic|strong|penalty|Nitsche"));
+    prm.add_parameter("Penalty", penalty,
+                      "Units: Pa/m (N/m if the surface integration is nodal). Stiffness by which "
+                      "penalty holds the surface; an expression of x, y, z and t, e.g. 100 * "
+                      "100000^t to stiffen with the load.");
+    prm.add_parameter("Nitsche factor", nitsche_factor,
+                      "Units: 1. Nitsche's method adds the stiffness factor * degree^2 * (lambda + "
+                      "2 mu) / (cell size); whole cells need more than 4, small cuts more than 10.",
+                      Patterns::Double(0.));
+    prm.add_parameter("Surface integration", surface_integration,
+                      "exact: on the pieces of surface in each cell; nodal: at the nodes of the "
+                      "body's surface mesh, as Brunet (eq. 4.14 to 4.21).",
+                      Patterns::Selection("exact|nodal"));
+  }
+
+  std::vector<LoadDescription>
+  parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,
+              const std::vector<Region> &regions)
+  {
+    std::vector<LoadDescription> loads;
+    for (const auto &[name, text] : entries)
+    {
+      find_region(name, regions);
+      std::istringstream parts(text);
+      for (std::string part; std::getline(parts, part, ';');)
+        if (!trimmed(part).empty())
+          loads.push_back(parse_load(name, trimmed(part)));
+      if (trimmed(text).empty())
+        throw BadInput("Loads/" + name +
+                       " is empty; give a kind of load and its value, such as "
+                       "'traction 0, -30, 0', or remove the entry.");
+    }
+    return loads;
+  }
+
+  namespace
+  {
+    /// Builds one load after the other.
+    class Builder
+    {
+    public:
+      Builder(const LoadParameters &parameters,
+              const Discretization &discretization,
+              const Surface &surface,
+              const std::vector<Material> &materials)
+          : parameters_(parameters),
+            discretization_(discretization),
+            surface_(surface),
+            materials_(materials),
+            held_(surface.bounding_box()),
+            loads_{{}, ImposedDisplacement(discretization), ""}
+      {
+      }
+
+      void add_weight()
+      {
+        std::vector<double> densities;
+        for (const Material &material : materials_)
+          densities.push_back(material.density());
+        if (parameters_.gravity.norm() > 0)
+          loads_.forces.push_back(
+            std::make_unique<Weight>(discretization_, parameters_.gravity, std::move(densities)));
+      }
+
+      void add(const LoadDescription &load, const Region &region)
+      {
+        if (load.kind == Kind::displacement)
+        {
+          add_displacement(load, region);
+          return;
+        }
+        const bool is_traction = load.kind == Kind::traction;
+        Expression value(load.value, is_traction ? 3 : 1, load.place);
+        auto patches = surface_patches(region);
+        check_numbers(value, patches);
+        if (is_traction)
+          add_force<Traction>(std::move(patches), std::move(value), load.region);
+        else if (load.kind == Kind::pressure)
+          add_force<Pressure>(std::move(patches), std::move(value), load.region);
+        else
+        {
+          Expression nowhere("0, 0, 0", 3, load.place);
+          hold(patches, nowhere);
+          add_force<Penalty>(std::move(patches), std::move(nowhere), std::move(value), load.region);
+        }
+      }
+
+      Loads finish()
+      {
+        for (const unsigned int i : loads_.imposed.unknowns())
+          if (i < discretization_.partitioner()->locally_owned_size())
+            held_.hold(discretization_.node_positions()[i / 3], i % 3);
+        loads_.free_motions = held_.free_motions(discretization_.communicator());
+        return std::move(loads_);
+      }
+
+    private:
+      bool is_nodal() const
+      {
+        return parameters_.surface_integration == "nodal";
+      }
+
+      template <class Force, class... Arguments>
+      void add_force(Arguments &&...arguments)
+      {
+        loads_.forces.push_back(
+          std::make_unique<Force>(discretization_, std::forward<Arguments>(arguments)...));
+      }
+
+      void add_displacement(const LoadDescription &load, const Region &region)
+      {
+        Expression displacement(load.value, 3, load.place);
+        const std::string &how = parameters_.imposition;
+        if (how == "automatic" || how == "strong")
+        {
+          if (const auto nodes = discretization_.nodes_on(region))
+          {
+            check_selects(region, nodes->size());
+            check_numbers(displacement, *nodes);
+            loads_.imposed.add(load.region, *nodes, std::move(displacement));
+            return;
+          }
+          if (how == "strong")
+            throw BadInput("Loads/Imposed displacement = strong cannot be had on region '" +
+                           load.region +
+                           "', which does not coincide with faces of cells; choose "
+                           "automatic, Nitsche or penalty.");
+        }
+        auto patches = surface_patches(region);
+        check_numbers(displacement, patches);
+        hold(patches, displacement);
+        if (how == "penalty" || (how == "automatic" && is_nodal()))
+          add_penalty(std::move(patches), std::move(displacement), load.region);
+        else if (is_nodal())
+          throw BadInput("Loads/Surface integration = nodal has no Nitsche's method; choose "
+                         "'Imposed displacement = penalty' or 'Surface integration = exact'.");
+        else
+          add_force<Nitsche>(std::move(patches), std::move(displacement), materials_,
+                             parameters_.nitsche_factor, load.region);
+      }
+
+      void add_penalty(std::vector<SurfacePatch> patches,
+                       Expression displacement,
+                       const std::string &region)
+      {
+        if (is_nodal()) // k of each node in N/m, whatever its area
+          for (SurfacePatch &patch : patches)
+            patch.weights.assign(patch.weights.size(), 1.);
+        Expression stiffness(parameters_.penalty, 1,
+                             "Loads/Penalty = '" + parameters_.penalty + "'");
+        check_numbers(stiffness, patches);
+        add_force<Penalty>(std::move(patches), std::move(displacement), std::move(stiffness),
+                           region);
+      }
+
+      std::vector<SurfacePatch> surface_patches(const Region &region) const
+      {
+        const auto [lower, upper] = surface_.bounding_box().get_boundary_points();
+        const double reach        = 0.05 * lower.distance(upper);
+        auto patches = is_nodal() ? nodal_surface_patches(discretization_, surface_, region, reach)
+                                  : discretization_.surface_patches(region);
+        check_selects(region, patches.size());
+        return patches;
+      }
+
+      void check_selects(const Region &region, const std::size_t n_here) const
+      {
+        if (dealii::Utilities::MPI::sum(n_here, discretization_.communicator()) == 0)
+          throw BadInput("Regions/" + region.name() +
+                         " selects nothing of the body's surface; mend its condition.");
+      }
+
+      void check_numbers(const Expression &value, const std::vector<SurfacePatch> &patches) const
+      {
+        std::vector<Point> points;
+        for (const SurfacePatch &patch : patches)
+          points.insert(points.end(), patch.points.begin(), patch.points.end());
+        check_numbers(value, points);
+      }
+
+      void check_numbers(const Expression &value, const std::vector<unsigned int> &nodes) const
+      {
+        std::vector<Point> points;
+        for (const unsigned int node : nodes)
+          points.push_back(discretization_.node_positions()[node]);
+        check_numbers(value, points);
+      }
+
+      /// The value must be a number at full load at every point.
+      void check_numbers(const Expression &value, const std::vector<Point> &points) const
+      {
+        std::ostringstream message;
+        for (const Point &X : points)
+          if (!std::isfinite(value.value(X, 1).norm()) && message.str().empty())
+            message << value.place() << " is not a finite number at (" << X
+                    << "), t = 1; mend the expression or the region.";
+        for (const std::string &any :
+             dealii::Utilities::MPI::all_gather(discretization_.communicator(), message.str()))
+          if (!any.empty())
+            throw BadInput(any);
+      }
+
+      /// Notes that the points cannot move freely.
+      void hold(const std::vector<SurfacePatch> &patches, const Expression &displacement)
+      {
+        for (const SurfacePatch &patch : patches)
+          for (const Point &X : patch.points)
+            for (unsigned int c = 0; c < 3; ++c)
+              if (!displacement.is_free(c))
+                held_.hold(X, c);
+      }
+
+      const LoadParameters &parameters_;
+      const Discretization &discretization_;
+      const Surface &surface_;
+      const std::vector<Material> &materials_;
+      RigidModes held_;
+      Loads loads_;
+    };
+  } // namespace
+
+  Loads make_loads(const LoadParameters &parameters,
+                   const std::vector<LoadDescription> &descriptions,
+                   const std::vector<Region> &regions,
+                   const Discretization &discretization,
+                   const Surface &surface,
+                   const std::vector<Material> &materials)
+  {
+    Builder builder(parameters, discretization, surface, materials);
+    builder.add_weight();
+    for (const LoadDescription &load : descriptions)
+      builder.add(load, find_region(load.region, regions));
+    return builder.finish();
+  }
+} // namespace softcell

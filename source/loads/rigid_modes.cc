@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Whether the supports hold a body against all six rigid-body motions.
+
+#include <softcell/loads/rigid_modes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace softcell
+{
+  namespace
+  {
+    using Matrix = dealii::Tensor<2, 3>;
+
+    /// "y" for a multiple of (0, 1, 0), else its components, the first of them positive.
+    std::string direction_name(const Direction &d)
+    {
+      std::ostringstream components;
+      components.precision(3);
+      double sign = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        if (std::abs(d[c]) > 1 - 1e-9)
+          return std::string(1, "xyz"[c]);
+        const bool is_zero = std::abs(d[c]) < 1e-9;
+        if (sign == 0 && !is_zero)
+          sign = d[c] > 0 ? 1 : -1;
+        components << (c == 0 ? "(" : ", ") << (is_zero ? 0. : sign * d[c]);
+      }
+      return components.str() + ")";
+    }
+
+    /// The null space of a positive semi-definite matrix in words, empty if there is none.
+    std::string null_space(const Matrix &matrix, const double tolerance)
+    {
+      const auto modes  = dealii::eigenvectors(dealii::symmetrize(matrix)); // descending
+      const auto n_free = std::count_if(modes.begin(), modes.end(),
+                                        [&](const auto &m) { return m.first < tolerance; });
+      if (n_free == 0)
+        return "";
+      if (n_free == 1)
+        return direction_name(modes[2].second);
+      if (n_free == 3)
+        return "x, y and z";
+      const std::string held = direction_name(modes[0].second);
+      return held == "x"   ? "y and z"
+             : held == "y" ? "x and z"
+             : held == "z" ? "x and y"
+                           : "every direction across " + held;
+    }
+
+    /// The inverse on the range.
+    Matrix pseudo_inverse(const Matrix &matrix, const double tolerance)
+    {
+      Matrix inverse;
+      for (const auto &[value, direction] : dealii::eigenvectors(dealii::symmetrize(matrix)))
+        if (value >= tolerance)
+          inverse += dealii::outer_product(direction, direction) / value;
+      return inverse;
+    }
+  } // namespace
+
+  RigidModes::RigidModes(const Box &body)
+      : centre_(body.center()),
+        length_(body.get_boundary_points().first.distance(body.get_boundary_points().second) / 2)
+  {
+  }
+
+  void RigidModes::hold(const Point &X, const unsigned int component)
+  {
+    const Direction r = (X - centre_) / length_;
+    std::array<double, 6> h{};
+    h[component] = 1;
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      Direction axis;
+      axis[k]  = 1;
+      h[3 + k] = dealii::cross_product_3d(axis, r)[component];
+    }
+    for (unsigned int i = 0; i < 6; ++i)
+      for (unsigned int j = 0; j < 6; ++j)
+        gram_[6 * i + j] += h[i] * h[j];
+  }
+
+  std::string RigidModes::free_motions(const MPI_Comm communicator) const
+  {
+    std::array<double, 36> all;
+    dealii::Utilities::MPI::sum(View<const double>(gram_), communicator, View<double>(all));
+    Matrix translation, coupling, rotation; // the blocks of the Gram matrix
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        translation[i][j] = all[6 * i + j];
+        coupling[i][j]    = all[6 * i + 3 + j];
+        rotation[i][j]    = all[6 * (3 + i) + 3 + j];
+      }
+    const double total       = dealii::trace(translation) + dealii::trace(rotation);
+    const std::string remedy = "; add a clamp, displacement or springs in Loads.";
+    if (total == 0)
+      return "nothing holds the body: translation along x, y and z and rotation about x, y and z "
+             "are free" +
+             remedy;
+
+    // A free rotation may come with a translation: eliminate the translations that are held.
+    const double tolerance = 1e-10 * total;
+    rotation -= transpose(coupling) * pseudo_inverse(translation, tolerance) * coupling;
+    const std::string along = null_space(translation, tolerance);
+    const std::string about = null_space(rotation, tolerance);
+    if (along.empty() && about.empty())
+      return "";
+    return "the supports do not hold the body: " +
+           (along.empty() ? "" : "translation along " + along) +
+           (along.empty() || about.empty() ? "" : " and ") +
+           (about.empty() ? "" : "rotation about " + about) + " is free" + remedy;
+  }
+} // namespace softcell

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Brunet's mapping of surface nodes to cells.
+
+#include "../box_surface.h"
+#include "../lattice.h"
+
+#include <softcell/base/exceptions.h>
+#include <softcell/loads/dead_loads.h>
+#include <softcell/loads/nodal_mapping.h>
+
+#include <gtest/gtest.h>
+
+namespace softcell
+{
+  // The mapping keeps the resultant and the moment of the nodal forces T^s, since the shapes sum to
+  // 1 and reproduce X. With T^s of a uniform traction these are those of the traction itself.
+  TEST(NodalMapping, KeepsResultantAndMoment)
+  {
+    const Surface surface = box_surface(Point(1, 1, 1), 3);
+    const Lattice grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
+    const Region side("side", "nx > 0.5");
+    const auto patches = nodal_surface_patches(grid, surface, side, 0.1);
+    EXPECT_EQ(dealii::Utilities::MPI::sum(unsigned(patches.size()), MPI_COMM_WORLD), 16u);
+    for (const SurfacePatch &patch : patches)
+      EXPECT_EQ(patch.normals[0], Direction({1, 0, 0}));
+
+    const Traction traction(grid, patches, Expression("0, -30, 2", 3, ""), "side");
+    Vector r = grid.make_vector();
+    EXPECT_LT((traction.total_force(r, 1) - Direction({0, -30, 2})).norm(), 1e-12);
+    traction.add_residual(r, 1, r);
+    r.compress(dealii::VectorOperation::add);
+    const Vector about_z = nodal_values(grid, [](const Point &X) {
+      return Direction({-X[1], X[0], 0});
+    });
+    EXPECT_NEAR(-(r * about_z), -30, 1e-12); // force (0, -30, 2) at (1, 1/2, 1/2)
+  }
+
+  TEST(NodalMapping, SaysWhereTheGridDoesNotReach)
+  {
+    const Surface surface = box_surface(Point(1, 1, 2), 2);
+    const Lattice grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
+    EXPECT_THROW(nodal_surface_patches(grid, surface, Region("top", "nz > 0.5"), 0.1), BadInput);
+    EXPECT_NO_THROW(nodal_surface_patches(grid, surface, Region("low", "nz < -0.5"), 0.1));
+  }
+} // namespace softcell
