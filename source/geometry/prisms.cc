@@ -15,30 +15,26 @@ namespace softcell
   {
     using dealii::numbers::PI;
 
-    Side
-    either(const bool inside, const bool outside)
+    Side either(const bool inside, const bool outside)
     {
       return outside ? Side::outside : inside ? Side::inside : Side::cut;
     }
 
-    Side
-    both(const Side a, const Side b)
+    Side both(const Side a, const Side b)
     {
       return either(a == Side::inside && b == Side::inside,
                     a == Side::outside || b == Side::outside);
     }
 
     /// How the box's range of coordinate d lies to [0, length].
-    Side
-    side_of_range(const Box &box, const unsigned int d, const double length)
+    Side side_of_range(const Box &box, const unsigned int d, const double length)
     {
       const double low = box.lower_bound(d), high = box.upper_bound(d), tolerance = flush * length;
       return either(low >= -tolerance && high <= length + tolerance,
                     high <= tolerance || low >= length - tolerance);
     }
 
-    bool
-    in_range(const double x, const double length)
+    bool in_range(const double x, const double length)
     {
       return x >= -flush * length && x <= (1 + flush) * length;
     }
@@ -48,42 +44,36 @@ namespace softcell
     public:
       explicit BoxBody(const Point &size) : size_(size) {}
 
-      Box
-      bounding_box() const override
+      Box bounding_box() const override
       {
         return Box({Point(), size_});
       }
 
-      bool
-      contains(const Point &X) const override
+      bool contains(const Point &X) const override
       {
         return in_range(X[0], size_[0]) && in_range(X[1], size_[1]) && in_range(X[2], size_[2]);
       }
 
-      Side
-      classify(const Box &box) const override
+      Side classify(const Box &box) const override
       {
         return both(both(side_of_range(box, 0, size_[0]), side_of_range(box, 1, size_[1])),
                     side_of_range(box, 2, size_[2]));
       }
 
-      double
-      filled_volume(const Box &box) const override
+      double filled_volume(const Box &box) const override
       {
         return overlap(box, 0, 0, size_[0]) * overlap(box, 1, 0, size_[1]) *
                overlap(box, 2, 0, size_[2]);
       }
 
-      double
-      volume() const override
+      double volume() const override
       {
         return size_[0] * size_[1] * size_[2];
       }
 
     private:
       /// Each face as 16 x 16 rectangles.
-      Surface
-      make_surface() const override
+      Surface make_surface() const override
       {
         constexpr unsigned int n = 16;
         TriangleList list;
@@ -118,39 +108,33 @@ namespace softcell
     {
       explicit Disk(const double radius_) : radius(radius_) {}
 
-      Point
-      extent() const
+      Point extent() const
       {
         return Point(radius, radius, 0);
       }
 
-      bool
-      contains(const Point &X) const
+      bool contains(const Point &X) const
       {
         return std::hypot(X[0], X[1]) <= radius * (1 + flush);
       }
 
-      Side
-      classify(const Box &box) const
+      Side classify(const Box &box) const
       {
         const auto [nearest, farthest] = distances_from_axis(box);
         return either(farthest <= radius * (1 + flush), nearest >= radius * (1 - flush));
       }
 
-      double
-      area_in(const Box &box) const
+      double area_in(const Box &box) const
       {
         return disk_area_in(radius, box);
       }
 
-      double
-      area() const
+      double area() const
       {
         return PI * radius * radius;
       }
 
-      Rings
-      rings() const
+      Rings rings() const
       {
         return make_rings(Point(), 6, 22, [&](const unsigned int k, const unsigned int j) {
           const double angle = PI * j / (3 * k);
@@ -170,14 +154,12 @@ namespace softcell
           corners[i] = Point(std::cos(PI * i / 3), std::sin(PI * i / 3), 0) * radius;
       }
 
-      Point
-      extent() const
+      Point extent() const
       {
         return Point(radius, inner_radius(), 0);
       }
 
-      bool
-      contains(const Point &X) const
+      bool contains(const Point &X) const
       {
         for (unsigned int side = 0; side < 6; ++side)
           if (outward(side) * X > inner_radius() + flush * radius)
@@ -186,8 +168,7 @@ namespace softcell
       }
 
       /// Two convex polygons are apart if and only if a side of one of them separates them.
-      Side
-      classify(const Box &box) const
+      Side classify(const Box &box) const
       {
         const auto &[low, high] = box.get_boundary_points();
         const Point extents     = extent();
@@ -213,8 +194,7 @@ namespace softcell
       }
 
       /// Clips the box's rectangle by the six sides.
-      double
-      area_in(const Box &box) const
+      double area_in(const Box &box) const
       {
         const auto &[low, high]    = box.get_boundary_points();
         std::vector<Point> polygon = {Point(low[0], low[1], 0), Point(high[0], low[1], 0),
@@ -241,14 +221,12 @@ namespace softcell
         return 0.5 * twice_the_area;
       }
 
-      double
-      area() const
+      double area() const
       {
         return 1.5 * std::sqrt(3.) * radius * radius;
       }
 
-      Rings
-      rings() const
+      Rings rings() const
       {
         return make_rings(Point(), 6, 16, [&](const unsigned int k, const unsigned int j) {
           const Point &a = corners[j / k], &b = corners[(j / k + 1) % 6];
@@ -256,14 +234,12 @@ namespace softcell
         });
       }
 
-      double
-      inner_radius() const
+      double inner_radius() const
       {
         return std::sqrt(0.75) * radius;
       }
 
-      Direction
-      outward(const unsigned int side) const
+      Direction outward(const unsigned int side) const
       {
         return (corners[side] + corners[(side + 1) % 6]) / (2 * inner_radius());
       }
@@ -279,42 +255,36 @@ namespace softcell
     public:
       Prism(const double radius, const double length) : section_(radius), length_(length) {}
 
-      Box
-      bounding_box() const override
+      Box bounding_box() const override
       {
         const Point extent = section_.extent();
         return Box({-extent, Point(extent[0], extent[1], length_)});
       }
 
-      bool
-      contains(const Point &X) const override
+      bool contains(const Point &X) const override
       {
         return in_range(X[2], length_) && section_.contains(Point(X[0], X[1], 0));
       }
 
-      Side
-      classify(const Box &box) const override
+      Side classify(const Box &box) const override
       {
         return both(section_.classify(box), side_of_range(box, 2, length_));
       }
 
-      double
-      filled_volume(const Box &box) const override
+      double filled_volume(const Box &box) const override
       {
         const double height = overlap(box, 2, 0, length_);
         return height > 0 ? height * section_.area_in(box) : 0;
       }
 
-      double
-      volume() const override
+      double volume() const override
       {
         return length_ * section_.area();
       }
 
     private:
       /// The ends in rings, the side in rectangles about twice as high as wide.
-      Surface
-      make_surface() const override
+      Surface make_surface() const override
       {
         const Rings base = section_.rings();
         Rings top        = base;
@@ -346,20 +316,17 @@ namespace softcell
     };
   } // namespace
 
-  std::unique_ptr<Body>
-  make_box(const Point &size)
+  std::unique_ptr<Body> make_box(const Point &size)
   {
     return std::make_unique<BoxBody>(size);
   }
 
-  std::unique_ptr<Body>
-  make_cylinder(const double radius, const double length)
+  std::unique_ptr<Body> make_cylinder(const double radius, const double length)
   {
     return std::make_unique<Prism<Disk>>(radius, length);
   }
 
-  std::unique_ptr<Body>
-  make_hexagonal_prism(const double radius, const double length)
+  std::unique_ptr<Body> make_hexagonal_prism(const double radius, const double length)
   {
     return std::make_unique<Prism<Hexagon>>(radius, length);
   }

@@ -8,15 +8,13 @@
 
 namespace softcell
 {
-  const Surface &
-  Shape::surface() const
+  const Surface &Shape::surface() const
   {
     std::call_once(once_, [&] { surface_.emplace(make_surface()); });
     return *surface_;
   }
 
-  unsigned int
-  TriangleList::vertex(const Point &X)
+  unsigned int TriangleList::vertex(const Point &X)
   {
     const auto [it, is_new] = numbers_.try_emplace({{X[0], X[1], X[2]}}, vertices_.size());
     if (is_new)
@@ -24,35 +22,31 @@ namespace softcell
     return it->second;
   }
 
-  void
-  TriangleList::add(const Point &a, const Point &b, const Point &c, const unsigned int patch)
+  void TriangleList::add(const Point &a, const Point &b, const Point &c, const unsigned int patch)
   {
     triangles_.push_back({{vertex(a), vertex(b), vertex(c)}});
     patches_.push_back(patch);
   }
 
-  void
-  TriangleList::add(const Point &a,
-                    const Point &b,
-                    const Point &c,
-                    const Point &d,
-                    const unsigned int patch)
+  void TriangleList::add(const Point &a,
+                         const Point &b,
+                         const Point &c,
+                         const Point &d,
+                         const unsigned int patch)
   {
     add(a, b, c, patch);
     add(a, c, d, patch);
   }
 
-  Surface
-  TriangleList::finish()
+  Surface TriangleList::finish()
   {
     return Surface(std::move(vertices_), std::move(triangles_), std::move(patches_));
   }
 
-  void
-  add_rings(TriangleList &list,
-            const Rings &rings,
-            const bool anticlockwise,
-            const unsigned int patch)
+  void add_rings(TriangleList &list,
+                 const Rings &rings,
+                 const bool anticlockwise,
+                 const unsigned int patch)
   {
     const auto add = [&](const Point &a, const Point &b, const Point &c) {
       anticlockwise ? list.add(a, b, c, patch) : list.add(a, c, b, patch);
@@ -71,16 +65,14 @@ namespace softcell
     }
   }
 
-  std::pair<double, double>
-  distances_from_axis(const Box &box)
+  std::pair<double, double> distances_from_axis(const Box &box)
   {
     const auto &[low, high] = box.get_boundary_points();
     return {std::hypot(std::max({low[0], -high[0], 0.}), std::max({low[1], -high[1], 0.})),
             std::hypot(std::max(-low[0], high[0]), std::max(-low[1], high[1]))};
   }
 
-  double
-  overlap(const Box &box, const unsigned int d, const double low, const double high)
+  double overlap(const Box &box, const unsigned int d, const double low, const double high)
   {
     const auto &[from, to] = box.get_boundary_points();
     return std::max(0., std::min(to[d], high) - std::max(from[d], low));
@@ -89,16 +81,14 @@ namespace softcell
   namespace
   {
     /// Half the height of the disk at x; 0 beside the disk.
-    double
-    half_chord(const double radius, const double x)
+    double half_chord(const double radius, const double x)
     {
       return std::abs(x) < radius ? std::sqrt((radius - x) * (radius + x)) : 0.;
     }
 
     /// Integral of half_chord from a to b: the trapezoid below the chord and the circle's segment
     /// above it, which loses no digits where b is near a.
-    double
-    area_below_arc(const double radius, const double a, const double b)
+    double area_below_arc(const double radius, const double a, const double b)
     {
       const double height_a = half_chord(radius, a), height_b = half_chord(radius, b);
       const double angle =
@@ -111,8 +101,7 @@ namespace softcell
     }
   } // namespace
 
-  double
-  disk_area_in(const double radius, const Box &box)
+  double disk_area_in(const double radius, const Box &box)
   {
     const auto &[low, high] = box.get_boundary_points();
     const double left = std::max(low[0], -radius), right = std::min(high[0], radius);

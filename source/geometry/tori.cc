@@ -23,23 +23,20 @@ namespace softcell
     public:
       Torus(const double ring, const double tube) : ring_(ring), tube_(tube) {}
 
-      Box
-      bounding_box() const override
+      Box bounding_box() const override
       {
         const double outer = ring_ + tube_;
         return Box({Point(-outer, -outer, 0), Point(outer, outer, 2 * tube_)});
       }
 
-      bool
-      contains(const Point &X) const override
+      bool contains(const Point &X) const override
       {
         return std::hypot(std::hypot(X[0], X[1]) - ring_, X[2] - tube_) <= tube_ * (1 + flush);
       }
 
       /// The distance from the axis and z range independently of each other over the box, so that
       /// its points nearest to and farthest from the circle are known.
-      Side
-      classify(const Box &box) const override
+      Side classify(const Box &box) const override
       {
         const auto [inner, outer] = distances_from_axis(box);
         const double low = box.lower_bound(2) - tube_, high = box.upper_bound(2) - tube_;
@@ -55,8 +52,7 @@ namespace softcell
       /// Integrates the exact area of the slices over z. The area has square-root ends where a
       /// slice's circle comes to touch a side or a corner of the box; z = m - h cos(t) between them
       /// makes it smooth in t.
-      double
-      filled_volume(const Box &box) const override
+      double filled_volume(const Box &box) const override
       {
         static const dealii::QGauss<1> gauss(20);
         const double low  = std::max(box.lower_bound(2) - tube_, -tube_);
@@ -78,16 +74,14 @@ namespace softcell
         return volume;
       }
 
-      double
-      volume() const override
+      double volume() const override
       {
         return ring_ > 0 ? 2 * PI * PI * ring_ * tube_ * tube_ : 4. / 3. * PI * std::pow(tube_, 3);
       }
 
     private:
       /// Area of the slice at height z above the ring's plane, within the box.
-      double
-      slice(const double z, const Box &box) const
+      double slice(const double z, const Box &box) const
       {
         const double half_width = std::sqrt(std::max(0., (tube_ - z) * (tube_ + z)));
         return disk_area_in(ring_ + half_width, box) -
@@ -95,8 +89,7 @@ namespace softcell
       }
 
       /// The heights, with both ends, where the area of the slice is not smooth.
-      std::vector<double>
-      kinks(const Box &box, const double low, const double high) const
+      std::vector<double> kinks(const Box &box, const double low, const double high) const
       {
         const auto &[from, to]   = box.get_boundary_points();
         std::vector<double> ends = {low, high};
@@ -115,8 +108,7 @@ namespace softcell
         return ends;
       }
 
-      Surface
-      make_surface() const override
+      Surface make_surface() const override
       {
         TriangleList list;
         ring_ > 0 ? add_tube(list) : add_hemispheres(list);
@@ -124,8 +116,7 @@ namespace softcell
       }
 
       /// 192 sections around the axis and 96 points around the tube: 8.9e-4 less volume.
-      void
-      add_tube(TriangleList &list) const
+      void add_tube(TriangleList &list) const
       {
         constexpr unsigned int n = 192, m = 96;
         std::vector<Point> points;
@@ -147,8 +138,7 @@ namespace softcell
 
       /// Rings about both poles, 48 each, the last with 192 points on the equator: 7e-4 less
       /// volume.
-      void
-      add_hemispheres(TriangleList &list) const
+      void add_hemispheres(TriangleList &list) const
       {
         constexpr unsigned int n = 48;
         Rings rings =
@@ -169,14 +159,12 @@ namespace softcell
     };
   } // namespace
 
-  std::unique_ptr<Body>
-  make_sphere(const double radius)
+  std::unique_ptr<Body> make_sphere(const double radius)
   {
     return std::make_unique<Torus>(0, radius);
   }
 
-  std::unique_ptr<Body>
-  make_torus(const double ring_radius, const double tube_radius)
+  std::unique_ptr<Body> make_torus(const double ring_radius, const double tube_radius)
   {
     return std::make_unique<Torus>(ring_radius, tube_radius);
   }

@@ -23,8 +23,7 @@ namespace
     bool flat; // its triangles are the boundary itself
   };
 
-  std::vector<ShapeCase>
-  shapes()
+  std::vector<ShapeCase> shapes()
   {
     const double pi = std::acos(-1.);
     return {{"box", make_box(Point(0.1, 0.2, 0.3)), 0.006, 0.22, true},
@@ -36,8 +35,7 @@ namespace
   }
 
   /// n^3 equal boxes that fill a box `scale` times the bounding box, around its centre.
-  std::vector<Box>
-  grid(const Box &box, const unsigned int n, const double scale = 1)
+  std::vector<Box> grid(const Box &box, const unsigned int n, const double scale = 1)
   {
     const Point centre = box.center();
     const Direction side =
@@ -55,8 +53,7 @@ namespace
   }
 
   /// A random box that reaches into the bounding box.
-  Box
-  random_box(const Box &bounds, std::mt19937 &random)
+  Box random_box(const Box &bounds, std::mt19937 &random)
   {
     std::uniform_real_distribution<> anywhere(-0.1, 1.1), size(0.02, 0.6);
     Point low, high;
@@ -68,8 +65,7 @@ namespace
     return Box({low, high});
   }
 
-  Point
-  random_point(const Box &box, std::mt19937 &random)
+  Point random_point(const Box &box, std::mt19937 &random)
   {
     std::uniform_real_distribution<> unit(0, 1);
     return box.unit_to_real(Point(unit(random), unit(random), unit(random)));

@@ -15,7 +15,7 @@ namespace softcell
   /// is flush with the boundary is not cut by it.
   constexpr double flush = 1e-12;
 
-  /// A body given by a formula, which triangulates its boundary when it is first asked for it.
+  /// A body that makes the triangles of its boundary when it is first asked for them.
   class Shape : public Body
   {
   public:
@@ -55,11 +55,10 @@ namespace softcell
 
   /// @param point  point(k, j) is point j of ring k > 0.
   template <class RingPoint>
-  Rings
-  make_rings(const Point &centre,
-             const unsigned int n_corners,
-             const unsigned int n_rings,
-             const RingPoint &point)
+  Rings make_rings(const Point &centre,
+                   const unsigned int n_corners,
+                   const unsigned int n_rings,
+                   const RingPoint &point)
   {
     Rings rings = {{centre}};
     for (unsigned int k = 1; k <= n_rings; ++k)
