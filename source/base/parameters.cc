@@ -225,8 +225,8 @@ namespace softcell
                        "' cannot be opened; check its permissions.");
       if (fs::file_size(file, error) <= largest || error)
         text << in.rdbuf();
-      const std::string content = text.str();
-      const bool is_text = std::none_of(content.begin(), content.end(), [](const unsigned char c) {
+      std::string content = text.str();
+      const bool is_text  = std::none_of(content.begin(), content.end(), [](const unsigned char c) {
         return (c < 32 && c != '\n' && c != '\r' && c != '\t') || c == 127;
       });
       if (content.empty() || !is_text)
