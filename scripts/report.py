@@ -75,18 +75,25 @@ def plot(rows, x, x_label, y, y_label):
     curves = series(rows, x, y)
     if len({point[0] for points in curves.values() for point in points}) < 2:
         return ""
-    figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
-    for i, (name, points) in enumerate(curves.items()):
-        axes.plot(*zip(*points), marker="os^Dv*"[i % 6], markersize=5, linewidth=1.4, label=name)
+    figure, axes = plt.subplots(figsize=(6.4, 5.0), layout="constrained")
+    methods, drawn = [], {}
+    for name, points in curves.items():
+        method = name.split(",")[0]
+        methods += [] if method in methods else [method]
+        n = drawn[method] = drawn.get(method, -1) + 1  # a colour for each method, a mark for each of its curves
+        axes.plot(*zip(*points), color=f"C{methods.index(method) % 10}", marker="os^Dv*Xp"[n % 8],
+                  linestyle=("-", "--", "-.", ":")[n % 4], markersize=5, linewidth=1.3, label=name)
     values = [value for points in curves.values() for point in points for value in point[1:]]
-    if x != "cut_levels" and all(p[0] > 0 for points in curves.values() for p in points):
+    if x == "cut_levels":
+        axes.xaxis.get_major_locator().set_params(integer=True)
+    elif all(p[0] > 0 for points in curves.values() for p in points):
         axes.set_xscale("log")
     if all(value > 0 for value in values):
         axes.set_yscale("log")
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
     axes.grid(True, which="both", linewidth=0.3)
-    axes.legend(fontsize=8, frameon=False, ncol=1 + len(curves) // 9)
+    axes.legend(fontsize=7.5, frameon=False, loc="upper center", bbox_to_anchor=(0.45, -0.12), ncol=3)
     text = io.StringIO()
     figure.savefig(text, format="svg")
     plt.close(figure)
