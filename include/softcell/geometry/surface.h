@@ -79,12 +79,13 @@ namespace softcell
   /// the face between two boxes is part of both.
   std::vector<Point> clip(const std::array<Point, 3> &triangle, const Box &box);
 
-  /// Reads an OFF, OBJ, STL, PLY or VTP file; the format is told by the name's ending.
+  /// Reads an OFF, OBJ, STL, PLY, VTP or legacy VTK file; the format is told by the name's ending.
   ///
   /// The surface comes back closed, two-manifold, free of self-intersections and with outward
   /// normals, or BadInput says what is wrong and where. Duplicate points are merged, degenerate
   /// triangles and stray specks dropped, inside-out parts turned; each repair adds a sentence to
-  /// `repairs`.
+  /// `repairs`. Patches are the solids of a text STL, the groups of an OBJ, the cell data "patch" of a
+  /// VTP.
   ///
   /// @param scale factor from the file's unit to metres (0.001 for a file in millimetres).
   Surface read_surface(const std::string &file, double scale, std::vector<std::string> &repairs);
