@@ -11,8 +11,7 @@ namespace softcell
   {
     const Direction up({0, 0, 1}), down({0, 0, -1});
 
-    std::string
-    message(const std::string &condition)
+    std::string message(const std::string &condition)
     {
       try
       {

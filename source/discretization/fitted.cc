@@ -1,0 +1,596 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Finite elements on conforming meshes: tetrahedra P1, P2 and hexahedra Q1, Q2, ...
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/fitted.h>
+#include <softcell/discretization/hexahedral_mesh.h>
+#include <softcell/discretization/tetrahedral_mesh.h>
+#include <softcell/geometry/surface.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <vtkHigherOrderHexahedron.h>
+
+namespace softcell
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Mesher = parallel::shared::Triangulation<3>;
+
+    /// Shapes and their derivatives on the reference cell.
+    ShapeTable reference_shapes(const FiniteElement<3> &element, const std::vector<Point> &points)
+    {
+      ShapeTable table;
+      const unsigned int n = element.n_dofs_per_cell();
+      table.resize(points.size(), n);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          table.values[q * n + i] = element.shape_value(i, points[q]);
+          const Direction dN      = element.shape_grad(i, points[q]);
+          for (unsigned int d = 0; d < 3; ++d)
+            table.gradients[(q * 3 + d) * n + i] = dN[d];
+        }
+      return table;
+    }
+
+    /// What all faces of one number have in common.
+    struct ReferenceFace
+    {
+      std::vector<unsigned int> nodes; // of the cell, that lie on the face
+      Direction tangents[2];           // span the face; their cross product points outward
+      Point centre;
+      std::vector<Point> points;       // of the quadrature rule
+      ShapeTable shapes, centre_shape; // at the points and at the centre
+    };
+
+    ReferenceFace reference_face(const FiniteElement<3> &element,
+                                 const unsigned int face,
+                                 const Quadrature<2> &rule)
+    {
+      const ReferenceCell cell = element.reference_cell();
+      Point corners[3];
+      for (unsigned int v = 0; v < 3; ++v)
+        corners[v] = cell.vertex<3>(cell.face_to_cell_vertices(face, v, 1));
+
+      ReferenceFace result;
+      result.tangents[0] = corners[1] - corners[0];
+      result.tangents[1] = corners[2] - corners[0];
+      if (cross_product_3d(result.tangents[0], result.tangents[1]) *
+            (corners[0] - cell.barycenter<3>()) <
+          0)
+        std::swap(result.tangents[0], result.tangents[1]);
+
+      const auto place = [&](const dealii::Point<2> &p) {
+        return corners[0] + p[0] * result.tangents[0] + p[1] * result.tangents[1];
+      };
+      for (const auto &p : rule.get_points())
+        result.points.push_back(place(p));
+      result.shapes       = reference_shapes(element, result.points);
+      result.centre       = place(cell.face_reference_cell(face).barycenter<2>());
+      result.centre_shape = reference_shapes(element, {result.centre});
+
+      const Direction normal = cross_product_3d(result.tangents[0], result.tangents[1]);
+      const auto &nodes      = element.get_unit_support_points();
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (std::abs((nodes[i] - corners[0]) * normal) < 1e-10)
+          result.nodes.push_back(i);
+      return result;
+    }
+
+    std::unique_ptr<FiniteElement<3>> make_element(const Mesh &mesh, const unsigned int degree)
+    {
+      if (degree < 1 || (mesh.corners_per_cell == 4 && degree > 2))
+        throw BadInput("Discretization/Degree = " + std::to_string(degree) +
+                       ": tetrahedra are available with degree 1 and 2, hexahedra from degree 1.");
+      if (mesh.corners_per_cell == 4)
+        return std::make_unique<FE_SimplexP<3>>(degree);
+      return std::make_unique<FE_Q<3>>(QIterated<1>(QTrapezoid<1>(), degree));
+    }
+
+    Quadrature<3> cell_rule(const Mesh &mesh, const unsigned int degree)
+    {
+      if (mesh.corners_per_cell == 4)
+        return degree == 1 ? Quadrature<3>(QGaussSimplex<3>(1))
+                           : QWitherdenVincentSimplex<3>(1, /*odd order*/ false);
+      return QGauss<3>(degree + 1);
+    }
+
+    Quadrature<2> face_rule(const Mesh &mesh, const unsigned int degree)
+    {
+      if (mesh.corners_per_cell == 4)
+        return QWitherdenVincentSimplex<2>(degree + 1);
+      return QGauss<2>(degree + 1);
+    }
+
+    void fill(Mesher &triangulation, const Mesh &mesh)
+    {
+      std::vector<CellData<3>> cells;
+      for (auto c = mesh.corners.begin(); c != mesh.corners.end(); c += mesh.corners_per_cell)
+        cells.emplace_back().vertices.assign(c, c + mesh.corners_per_cell);
+      if (mesh.corners_per_cell == 8)
+        GridTools::consistently_order_cells(cells);
+
+      SubCellData boundary;
+      const unsigned int n = mesh.corners_per_cell / 2 + (mesh.corners_per_cell == 4);
+      for (std::size_t f = 0; f < mesh.face_patches.size(); ++f)
+      {
+        auto &face = boundary.boundary_quads.emplace_back();
+        face.vertices.assign(mesh.face_corners.begin() + f * n,
+                             mesh.face_corners.begin() + (f + 1) * n);
+        face.boundary_id = mesh.face_patches[f];
+      }
+      triangulation.create_triangulation(mesh.vertices, cells, boundary);
+
+      if (mesh.mantle_radius > 0)
+      {
+        triangulation.set_manifold(1, CylindricalManifold<3>(2));
+        for (const auto &face : triangulation.active_face_iterators())
+        {
+          bool on_mantle = face->at_boundary();
+          for (const unsigned int v : face->vertex_indices())
+            on_mantle &= std::abs(std::hypot(face->vertex(v)[0], face->vertex(v)[1]) -
+                                  mesh.mantle_radius) < 1e-9 * mesh.mantle_radius;
+          if (on_mantle)
+            face->set_all_manifold_ids(1);
+        }
+      }
+    }
+
+    /// Of each unknown of three a node, from the nodes.
+    std::shared_ptr<const Partitioner>
+    unknowns(const IndexSet &owned, const IndexSet &used, MPI_Comm communicator)
+    {
+      const auto tripled = [](const IndexSet &nodes) {
+        IndexSet result(3 * nodes.size());
+        for (auto r = nodes.begin_intervals(); r != nodes.end_intervals(); ++r)
+          result.add_range(3 * *r->begin(), 3 * (r->last() + 1));
+        return result;
+      };
+      return std::make_shared<const Partitioner>(tripled(owned), tripled(used), communicator);
+    }
+  } // namespace
+
+  struct Fitted::Data
+  {
+    struct Face
+    {
+      unsigned int cell, number, patch;
+      Point centre;
+      Direction normal;
+    };
+
+    std::unique_ptr<FiniteElement<3>> element;
+    Quadrature<3> rule;
+    Quadrature<2> boundary_rule;
+    ShapeTable shapes; // at the rule's points, on the reference cell
+    std::vector<ReferenceFace> reference_faces;
+
+    std::vector<unsigned int> nodes;          // (n_cells, n_nodes)
+    std::vector<unsigned char> labels;        // (n_cells)
+    std::vector<Face> faces;                  // on the boundary
+    RTree<std::pair<Box, unsigned int>> tree; // of cells
+    Size size;
+    Box owned_box, box;
+    unsigned int n_faces = 0; // on the boundary, of all ranks
+    const std::vector<Point> &positions;
+
+    Data(const std::vector<Point> &node_positions) : positions(node_positions) {}
+
+    unsigned int n_nodes() const
+    {
+      return shapes.n_nodes;
+    }
+    View<const unsigned int> nodes_of(const unsigned int cell) const
+    {
+      return View<const unsigned int>(nodes.data() + std::size_t(cell) * n_nodes(), n_nodes());
+    }
+    Point position(const View<const unsigned int> &cell, const double *N) const
+    {
+      Point X;
+      for (unsigned int i = 0; i < cell.size(); ++i)
+        X += N[i] * positions[cell[i]];
+      return X;
+    }
+    /// J_cd = dX_c / dxi_d
+    Tensor<2, 3> jacobian(const View<const unsigned int> &cell, const double *dN) const
+    {
+      Tensor<2, 3> J;
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int i = 0; i < cell.size(); ++i)
+          for (unsigned int c = 0; c < 3; ++c)
+            J[c][d] += positions[cell[i]][c] * dN[d * cell.size() + i];
+      return J;
+    }
+    /// dN/dX from dN/dxi, both (3, n_nodes).
+    void transform(const Tensor<2, 3> &J, const double *reference, double *gradients) const
+    {
+      const Tensor<2, 3> inverse = invert(J);
+      const unsigned int n       = n_nodes();
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int i = 0; i < n; ++i)
+          gradients[c * n + i] = reference[i] * inverse[0][c] + reference[n + i] * inverse[1][c] +
+                                 reference[2 * n + i] * inverse[2][c];
+    }
+    /// Normal times what the face's tangents span.
+    Direction area_vector(const View<const unsigned int> &cell,
+                          const ReferenceFace &face,
+                          const double *dN) const
+    {
+      const Tensor<2, 3> J = jacobian(cell, dN);
+      return cross_product_3d(J * face.tangents[0], J * face.tangents[1]);
+    }
+    double volume(const unsigned int cell) const
+    {
+      double result = 0;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        result += rule.weight(q) * determinant(jacobian(nodes_of(cell), shapes.gradient(q)));
+      return result;
+    }
+
+    void add_faces(const Mesher &, const Body &, bool patches_known);
+    void measure(MPI_Comm communicator);
+    std::vector<const Face *> faces_in(const Region &region, MPI_Comm communicator) const;
+    SurfacePatch surface_patch(const Face &face) const;
+    std::pair<Point, double> locate(unsigned int cell, const Point &X) const;
+  };
+
+  Fitted::Fitted(MPI_Comm communicator,
+                 const Mesh &mesh,
+                 const unsigned int degree,
+                 const Body &body)
+      : data_(std::make_unique<Data>(node_positions_))
+  {
+    data_->element       = make_element(mesh, degree);
+    data_->rule          = cell_rule(mesh, degree);
+    data_->boundary_rule = face_rule(mesh, degree);
+    data_->shapes        = reference_shapes(*data_->element, data_->rule.get_points());
+    for (const unsigned int f : data_->element->reference_cell().face_indices())
+      data_->reference_faces.push_back(reference_face(*data_->element, f, data_->boundary_rule));
+
+    Mesher triangulation(communicator, Triangulation<3>::none, true, Mesher::partition_metis);
+    fill(triangulation, mesh);
+    DoFHandler<3> numbering(triangulation);
+    numbering.distribute_dofs(*data_->element);
+    partitioner_ = unknowns(numbering.locally_owned_dofs(),
+                            DoFTools::extract_locally_active_dofs(numbering), communicator);
+
+    std::unique_ptr<Mapping<3>> mapping;
+    if (mesh.corners_per_cell == 4)
+      mapping = std::make_unique<MappingFE<3>>(FE_SimplexP<3>(1));
+    else
+      mapping = std::make_unique<MappingQ<3>>(degree);
+    FEValues<3> places(*mapping, *data_->element,
+                       Quadrature<3>(data_->element->get_unit_support_points()),
+                       update_quadrature_points);
+    std::vector<types::global_dof_index> numbers(data_->n_nodes());
+    node_positions_.resize((partitioner_->locally_owned_size() + partitioner_->n_ghost_indices()) /
+                           3);
+    for (const auto &cell : numbering.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        places.reinit(cell);
+        cell->get_dof_indices(numbers);
+        for (unsigned int i = 0; i < numbers.size(); ++i)
+        {
+          data_->nodes.push_back(partitioner_->global_to_local(3 * numbers[i]) / 3);
+          node_positions_[data_->nodes.back()] = places.quadrature_point(i);
+        }
+        data_->labels.push_back(body.n_labels() > 1 ? body.label(cell->center()) : 0);
+      }
+    data_->add_faces(triangulation, body, !mesh.face_patches.empty());
+    data_->measure(communicator);
+  }
+
+  Fitted::~Fitted() = default;
+
+  void
+  Fitted::Data::add_faces(const Mesher &triangulation, const Body &body, const bool patches_known)
+  {
+    unsigned int number = 0;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+          {
+            const ReferenceFace &reference = reference_faces[f];
+            const auto cell_nodes          = nodes_of(number);
+            Face face{number, f, 0, {}, {}};
+            face.centre = position(cell_nodes, reference.centre_shape.value(0));
+            face.normal = area_vector(cell_nodes, reference, reference.centre_shape.gradient(0));
+            face.normal /= face.normal.norm();
+            face.patch = patches_known
+                           ? cell->face(f)->boundary_id()
+                           : body.surface().patches()[body.surface().nearest(face.centre).second];
+            faces.push_back(face);
+          }
+        ++number;
+      }
+  }
+
+  void Fitted::Data::measure(MPI_Comm communicator)
+  {
+    // Curved cells bulge out of the box of their nodes.
+    const double margin = n_nodes() > 8 ? 0.1 : 1e-9;
+    std::vector<std::pair<Box, unsigned int>> boxes;
+    unsigned int n_bad    = 0;
+    const double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> lowest(3, infinity), highest(3, -infinity);
+    for (unsigned int cell = 0; cell < labels.size(); ++cell)
+    {
+      std::vector<Point> points;
+      for (const unsigned int i : nodes_of(cell))
+        points.push_back(positions[i]);
+      Box cell_box(points);
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        lowest[d]  = std::min(lowest[d], cell_box.lower_bound(d));
+        highest[d] = std::max(highest[d], cell_box.upper_bound(d));
+      }
+      cell_box.extend(margin * (points[0] - points[1]).norm());
+      boxes.emplace_back(cell_box, cell);
+
+      bool good = true;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        good &= determinant(jacobian(nodes_of(cell), shapes.gradient(q))) > 0;
+      n_bad += !good;
+    }
+    tree = pack_rtree(boxes);
+
+    const auto box_of = [](const std::vector<double> &a, const std::vector<double> &b) {
+      return Box({Point(a[0], a[1], a[2]), Point(b[0], b[1], b[2])});
+    };
+    if (!labels.empty())
+      owned_box = box_of(lowest, highest);
+    Utilities::MPI::min(lowest, communicator, lowest);
+    Utilities::MPI::max(highest, communicator, highest);
+    box = box_of(lowest, highest);
+
+    size.cells              = Utilities::MPI::sum(labels.size(), communicator);
+    size.integration_points = size.cells * rule.size();
+    n_faces                 = Utilities::MPI::sum(faces.size(), communicator);
+    n_bad                   = Utilities::MPI::sum(n_bad, communicator);
+    if (n_bad > 0)
+      throw BadInput(std::to_string(n_bad) + " of the mesh's " + std::to_string(size.cells) +
+                     " cells are inside out or have no volume; mesh the body anew with another "
+                     "Discretization/Mesh size, or mend the Discretization/Mesh file.");
+  }
+
+  std::vector<const Fitted::Data::Face *> Fitted::Data::faces_in(const Region &region,
+                                                                 MPI_Comm communicator) const
+  {
+    std::vector<const Face *> result;
+    for (const Face &face : faces)
+      if (region.contains(face.centre, face.normal, face.patch))
+        result.push_back(&face);
+    if (Utilities::MPI::sum(result.size(), communicator) == 0)
+    {
+      std::ostringstream text;
+      text << "Regions/" << region.name() << " selects none of the " << n_faces
+           << " boundary faces of the mesh, which lies in" << std::setprecision(4);
+      for (unsigned int d = 0; d < 3; ++d)
+        text << (d == 0 ? " " : ", ") << box.lower_bound(d) << " <= "
+             << "xyz"[d] << " <= " << box.upper_bound(d);
+      throw BadInput(text.str() + " (m); a face counts by its centre, so widen the condition.");
+    }
+    return result;
+  }
+
+  SurfacePatch Fitted::Data::surface_patch(const Face &face) const
+  {
+    const auto cell                = nodes_of(face.cell);
+    const ReferenceFace &reference = reference_faces[face.number];
+    SurfacePatch result;
+    result.nodes.assign(cell.begin(), cell.end());
+    result.shapes = reference.shapes;
+    result.labels.assign(boundary_rule.size(), labels[face.cell]);
+    double area = 0;
+    for (unsigned int q = 0; q < boundary_rule.size(); ++q)
+    {
+      const double *dN  = reference.shapes.gradient(q);
+      const Direction a = area_vector(cell, reference, dN);
+      result.points.push_back(position(cell, reference.shapes.value(q)));
+      result.normals.push_back(a / a.norm());
+      result.weights.push_back(boundary_rule.weight(q) * a.norm());
+      transform(jacobian(cell, dN), dN, result.shapes.gradients.data() + q * 3 * n_nodes());
+      area += result.weights.back();
+    }
+    // The cell's height over the face.
+    const bool tetrahedron = element->reference_cell() == ReferenceCells::Tetrahedron;
+    result.cell_size       = (tetrahedron ? 3 : 1) * volume(face.cell) / area;
+    return result;
+  }
+
+  /// Reference coordinates of X in a cell (Newton), and how far X is outside, measured from the
+  /// point of the cell whose reference coordinates are nearest to those.
+  std::pair<Point, double> Fitted::Data::locate(const unsigned int cell, const Point &X) const
+  {
+    const ReferenceCell shape = element->reference_cell();
+    const auto nodes_here     = nodes_of(cell);
+    Point xi                  = shape.barycenter<3>();
+    bool converged            = false;
+    for (unsigned int iteration = 0; iteration < 20 && !converged; ++iteration)
+    {
+      const ShapeTable here = reference_shapes(*element, {xi});
+      const Tensor<2, 3> J  = jacobian(nodes_here, here.gradient(0));
+      if (!(determinant(J) > 0))
+        break;
+      const Direction step = invert(J) * (X - position(nodes_here, here.value(0)));
+      xi += step;
+      converged = step.norm() < 1e-12 * (1 + xi.norm());
+    }
+
+    Point inside = xi;
+    for (unsigned int d = 0; d < 3; ++d)
+      inside[d] = std::max(inside[d], 0.);
+    if (shape == ReferenceCells::Tetrahedron)
+      inside /= std::max(inside[0] + inside[1] + inside[2], 1.);
+    else
+      for (unsigned int d = 0; d < 3; ++d)
+        inside[d] = std::min(inside[d], 1.);
+    if (converged && inside.distance(xi) < 1e-10)
+      return {xi, 0.};
+    const ShapeTable there = reference_shapes(*element, {inside});
+    return {converged ? xi : inside, X.distance(position(nodes_here, there.value(0)))};
+  }
+
+  Size Fitted::size() const
+  {
+    Size size     = data_->size;
+    size.unknowns = partitioner_->size();
+    return size;
+  }
+
+  unsigned int Fitted::degree() const
+  {
+    return data_->element->degree;
+  }
+
+  unsigned int Fitted::n_patches() const
+  {
+    return data_->labels.size();
+  }
+
+  Patch Fitted::patch(const unsigned int i, PatchStorage &storage) const
+  {
+    const ShapeTable &reference = data_->shapes;
+    Patch patch;
+    patch.nodes    = data_->nodes_of(i);
+    storage.shapes = reference;
+    storage.weights.resize(reference.n_points);
+    for (unsigned int q = 0; q < reference.n_points; ++q)
+    {
+      const Tensor<2, 3> J = data_->jacobian(patch.nodes, reference.gradient(q));
+      storage.weights[q]   = data_->rule.weight(q) * determinant(J);
+      data_->transform(J, reference.gradient(q),
+                       storage.shapes.gradients.data() + q * 3 * reference.n_nodes);
+    }
+    patch.weights = View<const double>(storage.weights.data(), storage.weights.size());
+    patch.shapes  = &storage.shapes;
+    patch.labels  = View<const unsigned char>(&data_->labels[i], 1);
+    return patch;
+  }
+
+  void Fitted::patch_points(const unsigned int i, std::vector<Point> &points) const
+  {
+    points.resize(data_->rule.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      points[q] = data_->position(data_->nodes_of(i), data_->shapes.value(q));
+  }
+
+  std::vector<SurfacePatch> Fitted::surface_patches(const Region &region) const
+  {
+    std::vector<SurfacePatch> result;
+    for (const Data::Face *face : data_->faces_in(region, communicator()))
+      result.push_back(data_->surface_patch(*face));
+    return result;
+  }
+
+  std::optional<std::vector<unsigned int>> Fitted::nodes_on(const Region &region) const
+  {
+    Vector marks = make_vector();
+    for (const Data::Face *face : data_->faces_in(region, communicator()))
+      for (const unsigned int i : data_->reference_faces[face->number].nodes)
+        marks.local_element(3 * data_->nodes_of(face->cell)[i]) = 1;
+    // A face is seen by one rank only, its nodes by several.
+    marks.compress(VectorOperation::add);
+    marks.update_ghost_values();
+    std::vector<unsigned int> result;
+    for (unsigned int node = 0; node < node_positions_.size(); ++node)
+      if (marks.local_element(3 * node) > 0)
+        result.push_back(node);
+    return result;
+  }
+
+  std::optional<PointShapes> Fitted::shapes_at(const Point &X, const double reach) const
+  {
+    namespace index = boost::geometry::index;
+    std::optional<std::pair<Point, unsigned int>> best;
+    double distance = reach;
+    for (auto it = data_->tree.qbegin(index::nearest(X, std::max(1u, n_patches())));
+         it != data_->tree.qend() && !(best && distance == 0); ++it)
+    {
+      if (boost::geometry::distance(X, it->first) > distance)
+        break; // the boxes come in the order of their distances
+      const auto [xi, outside] = data_->locate(it->second, X);
+      if (outside <= distance)
+      {
+        best     = {xi, it->second};
+        distance = outside;
+      }
+    }
+    if (!best)
+      return {};
+
+    const auto [xi, cell] = *best;
+    const auto nodes      = data_->nodes_of(cell);
+    ShapeTable here       = reference_shapes(*data_->element, {xi});
+    PointShapes result;
+    result.nodes.assign(nodes.begin(), nodes.end());
+    result.gradients.resize(3 * nodes.size());
+    data_->transform(data_->jacobian(nodes, here.gradient(0)), here.gradient(0),
+                     result.gradients.data());
+    result.values   = std::move(here.values);
+    result.distance = distance;
+    return result;
+  }
+
+  Box Fitted::owned_box() const
+  {
+    return data_->owned_box;
+  }
+
+  DrawnCells Fitted::drawn_cells() const
+  {
+    const unsigned int n   = data_->n_nodes();
+    const bool tetrahedron = data_->element->reference_cell() == ReferenceCells::Tetrahedron;
+    const int p            = degree();
+    const int order[]      = {p, p, p, int(n)};
+
+    // VTK numbers the nodes of tetrahedra as we do.
+    std::vector<unsigned int> node_of_vtk(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const Point xi      = p * data_->element->unit_support_point(i);
+      const auto number   = tetrahedron
+                              ? i
+                              : vtkHigherOrderHexahedron::PointIndexFromIJK(
+                                  std::lround(xi[0]), std::lround(xi[1]), std::lround(xi[2]), order);
+      node_of_vtk[number] = i;
+    }
+
+    DrawnCells result;
+    result.types.assign(n_patches(), tetrahedron ? (p == 1 ? 10 : 24) : (p == 1 ? 12 : 72));
+    result.cut_fraction.assign(n_patches(), 1.);
+    result.offsets = {0};
+    for (unsigned int cell = 0; cell < n_patches(); ++cell)
+    {
+      for (const unsigned int i : node_of_vtk)
+        result.connectivity.push_back(data_->nodes_of(cell)[i]);
+      result.offsets.push_back(result.connectivity.size());
+      result.patches.push_back(cell);
+    }
+    result.points = node_positions_;
+    for (unsigned int node = 0; node < result.points.size(); ++node)
+      result.shapes.push_back({{node}, {1.}, {}, 0.});
+    return result;
+  }
+} // namespace softcell
