@@ -84,8 +84,8 @@ namespace softcell
   /// The surface comes back closed, two-manifold, free of self-intersections and with outward
   /// normals, or BadInput says what is wrong and where. Duplicate points are merged, degenerate
   /// triangles and stray specks dropped, inside-out parts turned; each repair adds a sentence to
-  /// `repairs`. Patches are the solids of a text STL, the groups of an OBJ, the cell data "patch" of a
-  /// VTP.
+  /// `repairs`. Patches are the solids of a text STL, the groups of an OBJ, the cell data "patch"
+  /// of a VTP.
   ///
   /// @param scale factor from the file's unit to metres (0.001 for a file in millimetres).
   Surface read_surface(const std::string &file, double scale, std::vector<std::string> &repairs);
