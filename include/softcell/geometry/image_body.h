@@ -10,12 +10,14 @@ namespace softcell
   /// The union of the voxels of some labels.
   ///
   /// Inside, classification and filled volume answer exactly for these voxels, boxes in constant
-  /// time from a summed-volume table, 4 bytes a voxel of the body's bounding box. Only surface()
-  /// smooths: it is the level set of the voxels blurred by a Gaussian of 1.5 times the coarsest
-  /// voxel spacing s (or of 1/150 of the bounding box's diagonal, if that is more), at the level
-  /// that encloses the voxels' volume, clamped to their bounding box. On the smooth parts of an
-  /// organ it lies within s of the voxels' faces; edges and details narrower than about 3 s are
-  /// rounded off.
+  /// time from a summed-volume table, 4 bytes a voxel of the body's bounding box.
+  ///
+  /// Only surface() smooths: it is a level set of the voxels blurred by a Gaussian of
+  /// sigma = 1.5 times the coarsest voxel spacing (or 1/150 of the bounding box's diagonal, if that
+  /// is more), at the level that encloses the voxels' volume, clamped to their bounding box, which
+  /// may cost 1e-3 of the volume. Where the boundary has the radius of curvature R, it moves by
+  /// about sigma^2 / R; edges are rounded by about sigma, and details narrower than 2 sigma are
+  /// lost.
   class ImageBody final : public Shape
   {
   public:
