@@ -22,14 +22,14 @@ namespace
   }
 
   std::string complaint(const std::string &model,
-                        const double E,
-                        const double nu,
+                        const double young_modulus,
+                        const double poisson_ratio,
                         const double density,
                         const std::string &section = "Material")
   {
     try
     {
-      Material(model, E, nu, density, section);
+      Material(model, young_modulus, poisson_ratio, density, section);
     }
     catch (const BadInput &error)
     {
@@ -54,9 +54,9 @@ namespace
               std::string::npos);
     EXPECT_NE(complaint("linear", -2, 0.3, 0).find("is -2;"), std::string::npos);
     EXPECT_NE(complaint("linear", std::nan(""), 0.3, 0).find("Young modulus"), std::string::npos);
-    for (const double nu : {0.5, 0.7, -1., std::nan("")})
-      EXPECT_NE(complaint("linear", 1, nu, 0).find("Material/Poisson ratio"), std::string::npos)
-        << nu;
+    for (const double ratio : {0.5, 0.7, -1., std::nan("")})
+      EXPECT_NE(complaint("linear", 1, ratio, 0).find("Material/Poisson ratio"), std::string::npos)
+        << ratio;
     EXPECT_NE(complaint("linear", 1, 0.3, -1).find("Material/Density"), std::string::npos);
     EXPECT_NE(complaint("Hooke", 1, 0.3, 1).find("'Hooke'"), std::string::npos);
     EXPECT_NE(complaint("linear", 0, 0.3, 0, "Material 255").find("Material 255/Young modulus"),
