@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The error of one displacement against another.
+
+#include "../lattice.h"
+
+#include <softcell/studies/difference.h>
+
+#include <gtest/gtest.h>
+
+namespace softcell
+{
+  namespace
+  {
+    Direction reference(const Point &X)
+    {
+      return Direction({X[0], 0, 0});
+    }
+  } // namespace
+
+  // u_ref = (x, 0, 0) and u - u_ref = (0, 0, e x y) on the unit cube:
+  // |u_ref|^2 = 1/3, |u - u_ref|^2 = e^2/9, |grad u_ref|^2 = 1, |grad (u - u_ref)|^2 = 2 e^2/3.
+  TEST(Difference, HasTheNormsOfKnownFields)
+  {
+    const double e = 0.01;
+    const Lattice coarse({2, 1, 4}, Point(1, 1, 1), MPI_COMM_WORLD),
+      fine({3, 4, 5}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const Vector u_fine = nodal_values(fine, reference);
+    const Vector u      = nodal_values(coarse, [&](const Point &X) {
+      return reference(X) + Direction({0, 0, e * X[0] * X[1]});
+    });
+    const Difference d  = difference(coarse, u, fine, u_fine, 0);
+    EXPECT_NEAR(d.relative_l2, e / std::sqrt(3.), 1e-12);
+    EXPECT_NEAR(d.relative_h1, e * std::sqrt(2. / 3), 1e-12);
+    EXPECT_EQ(d.missed, 0);
+  }
+
+  TEST(Difference, LeavesOutWhatIsBeyondReach)
+  {
+    const Lattice half({1, 1, 3}, Point(1, 1, 0.5), MPI_COMM_WORLD),
+      whole({1, 1, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const Vector u_whole = nodal_values(whole, reference), u = nodal_values(half, reference);
+    const Difference d = difference(half, u, whole, u_whole, 0);
+    EXPECT_NEAR(d.missed, 0.5, 1e-14);
+    EXPECT_LT(d.relative_l2, 1e-14);
+    EXPECT_EQ(difference(half, u, whole, u_whole, 1).missed, 0);
+  }
+} // namespace softcell
