@@ -5,6 +5,8 @@
 
 #include <softcell/base/exceptions.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <array>
 #include <muParser.h>
 #include <vector>
@@ -21,12 +23,6 @@ namespace softcell
 
   namespace
   {
-    std::string trimmed(const std::string &text)
-    {
-      const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-      return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-    }
-
     /// The parts between those commas that are not inside parentheses.
     std::vector<std::string> split(const std::string &text)
     {
@@ -41,7 +37,7 @@ namespace softcell
           parts.back() += c;
       }
       for (std::string &part : parts)
-        part = trimmed(part);
+        part = dealii::Utilities::trim(part);
       return parts;
     }
   } // namespace

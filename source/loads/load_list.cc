@@ -12,6 +12,7 @@
 #include <softcell/loads/supports.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,12 +39,6 @@ namespace softcell
       {"pressure", Kind::pressure, 1, "pressure 1733 (Pa, inward)"},
       {"springs", Kind::springs, 1, "springs 1e6 (Pa/m)"}};
 
-    std::string trimmed(const std::string &text)
-    {
-      const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-      return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-    }
-
     /// "; did you mean 'x'?" if there is a near word.
     std::string suggestion(const std::string &word, const std::vector<std::string> &known)
     {
@@ -65,7 +60,7 @@ namespace softcell
       const std::string place = "Loads/" + region + " = '" + text + "'";
       const auto end_of_word  = std::min(text.find_first_of(" \t"), text.size());
       const std::string word  = text.substr(0, end_of_word),
-                        value = trimmed(text.substr(end_of_word));
+                        value = dealii::Utilities::trim(text.substr(end_of_word));
 
       std::vector<std::string> names, usages;
       for (const KindName &kind : kinds)
@@ -146,9 +141,9 @@ namespace softcell
       find_region(name, regions);
       std::istringstream parts(text);
       for (std::string part; std::getline(parts, part, ';');)
-        if (!trimmed(part).empty())
-          loads.push_back(parse_load(name, trimmed(part)));
-      if (trimmed(text).empty())
+        if (!dealii::Utilities::trim(part).empty())
+          loads.push_back(parse_load(name, dealii::Utilities::trim(part)));
+      if (dealii::Utilities::trim(text).empty())
         throw BadInput("Loads/" + name +
                        " is empty; give a kind of load and its value, such as "
                        "'traction 0, -30, 0', or remove the entry.");

@@ -10,7 +10,7 @@ namespace softcell
 {
   namespace
   {
-    const Point X(1, 2, 3);
+    const Point somewhere(1, 2, 3);
 
     std::string complaint(const std::string &text, const unsigned int n_components)
     {
@@ -30,11 +30,11 @@ namespace softcell
   {
     const Expression plain("x + y, -z, 5", 3, ""), timed("max(t, 0.5), 2*t^2, x", 3, "");
     EXPECT_FALSE(plain.uses_time());
-    EXPECT_EQ(plain.value(X, 0.25), Direction({3, -3, 5}));
-    EXPECT_EQ(plain.at_load_factor(X, 0.5), Direction({1.5, -1.5, 2.5}));
+    EXPECT_EQ(plain.value(somewhere, 0.25), Direction({3, -3, 5}));
+    EXPECT_EQ(plain.at_load_factor(somewhere, 0.5), Direction({1.5, -1.5, 2.5}));
     EXPECT_TRUE(timed.uses_time());
-    EXPECT_EQ(timed.at_load_factor(X, 0.25), Direction({0.5, 0.125, 1}));
-    EXPECT_EQ(Expression("100 * 10^t", 1, "").value(X, 2)[0], 1e4);
+    EXPECT_EQ(timed.at_load_factor(somewhere, 0.25), Direction({0.5, 0.125, 1}));
+    EXPECT_EQ(Expression("100 * 10^t", 1, "").value(somewhere, 2)[0], 1e4);
   }
 
   TEST(Expression, LeavesComponentsFree)
@@ -42,7 +42,7 @@ namespace softcell
     const Expression sliding("0.1, free, 0", 3, "");
     EXPECT_FALSE(sliding.is_free(0));
     EXPECT_TRUE(sliding.is_free(1));
-    EXPECT_EQ(sliding.value(X, 1), Direction({0.1, 0, 0}));
+    EXPECT_EQ(sliding.value(somewhere, 1), Direction({0.1, 0, 0}));
   }
 
   TEST(Expression, NamesWhatItCannotRead)
