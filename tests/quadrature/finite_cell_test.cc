@@ -14,15 +14,13 @@ namespace softcell
     const Box cell({Point(-0.2, 0.1, 0), Point(1.8, 1.1, 4)});
     const Ball ball(0.9, Point(0.1, 0.3, 1.1));
 
-    double
-    sum(const std::vector<double> &v)
+    double sum(const std::vector<double> &v)
     {
       return std::accumulate(v.begin(), v.end(), 0.);
     }
 
     // Integral of x^a over [l, u].
-    double
-    monomial(const unsigned int a, const double l, const double u)
+    double monomial(const unsigned int a, const double l, const double u)
     {
       return (std::pow(u, a + 1) - std::pow(l, a + 1)) / (a + 1);
     }
@@ -66,8 +64,8 @@ namespace softcell
       const double exact = monomial(a, lower[0], upper[0]) * monomial(b, lower[1], upper[1]) *
                            monomial(c, lower[2], upper[2]);
       EXPECT_NEAR(integral, exact, 1e-12 * std::abs(exact)) << degree;
-      // 1 + 2 halvings along x, 1 along y, 2 + 4 along z would be too many: whole leaves stay whole
-      EXPECT_LT(result.points.size(), 6u * 4 * 5 * std::pow(degree + 1, 3));
+      // an eighth of the cell, then 1 x 2 x 2 leaves of 1/64, then 6 x 4 x 1 of 1/512
+      EXPECT_EQ(result.points.size(), (1 + 4 + 24) * std::pow(degree + 1, 3));
     }
   }
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/geometry/shapes.h>
+#include <softcell/geometry/surface.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace softcell
+{
+  namespace
+  {
+    GridParameters
+    scaled_grid(const unsigned int n, const double scale = 1, const unsigned int refinement = 0)
+    {
+      GridParameters parameters;
+      parameters.cells              = {n};
+      parameters.scale              = scale;
+      parameters.surface_refinement = refinement;
+      return parameters;
+    }
+
+    // sum over nodes of |int_body grad N - int_surface N n|, relative to the surface's area
+    double divergence_defect(const Immersed &immersed)
+    {
+      Vector defect = immersed.make_vector();
+      PatchStorage storage;
+      for (unsigned int i = 0; i < immersed.n_patches(); ++i)
+      {
+        const Patch patch = immersed.patch(i, storage);
+        for (unsigned int q = 0; q < patch.n_points(); ++q)
+          for (unsigned int d = 0; d < 3; ++d)
+            for (unsigned int k = 0; k < patch.n_nodes(); ++k)
+              defect.local_element(3 * patch.nodes[k] + d) +=
+                patch.weights[q] * patch.shapes->gradient(q)[d * patch.n_nodes() + k];
+      }
+      double area = 0;
+      for (const SurfacePatch &patch : immersed.surface_patches(Region("all", "1")))
+        for (unsigned int q = 0; q < patch.weights.size(); ++q)
+        {
+          area += patch.weights[q];
+          for (unsigned int k = 0; k < patch.nodes.size(); ++k)
+            for (unsigned int d = 0; d < 3; ++d)
+              defect.local_element(3 * patch.nodes[k] + d) -=
+                patch.weights[q] * patch.shapes.value(q)[k] * patch.normals[q][d];
+        }
+      defect.compress(dealii::VectorOperation::add);
+      return defect.l1_norm() / dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
+    }
+  } // namespace
+
+  TEST(ImmersedSurface, EveryPieceAppearsOnce)
+  {
+    std::vector<std::unique_ptr<Body>> bodies;
+    bodies.push_back(make_box(Point(0.1, 0.2, 0.15)));
+    bodies.push_back(make_cylinder(0.05, 0.2));
+    bodies.push_back(make_sphere(0.05));
+    bodies.push_back(make_torus(0.1, 0.04));
+    bodies.push_back(make_hexagonal_prism(0.05, 0.2));
+    for (const auto &body : bodies)
+      for (const double scale : {1., 1.37})
+        for (unsigned int refinement = 0; refinement <= 1; ++refinement)
+        {
+          const Immersed immersed("weighted cell", 1, scaled_grid(4, scale, refinement), {2, 0},
+                                  *body, MPI_COMM_WORLD);
+          double area = 0, x_n = 0;
+          Direction n;
+          for (const SurfacePatch &patch : immersed.surface_patches(Region("all", "1")))
+            for (unsigned int q = 0; q < patch.weights.size(); ++q)
+            {
+              area += patch.weights[q];
+              n += patch.weights[q] * patch.normals[q];
+              x_n += patch.weights[q] * (patch.points[q] * patch.normals[q]);
+              Direction X; // the shapes find the point again, and are a partition of unity
+              double unity = 0;
+              for (unsigned int k = 0; k < patch.nodes.size(); ++k)
+              {
+                unity += patch.shapes.value(q)[k];
+                X += patch.shapes.value(q)[k] * immersed.node_positions()[patch.nodes[k]];
+              }
+              ASSERT_NEAR(unity, 1, 1e-12);
+              ASSERT_LT((X - patch.points[q]).norm(), 1e-12);
+            }
+          area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
+          x_n  = dealii::Utilities::MPI::sum(x_n, MPI_COMM_WORLD);
+          n    = dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD);
+          EXPECT_NEAR(area, body->surface().area(), 1e-9 * area);
+          EXPECT_NEAR(x_n, 3 * body->surface().volume(), 1e-7 * x_n);
+          EXPECT_LT(n.norm(), 1e-9 * area);
+        }
+  }
+
+  TEST(ImmersedSurface, DivergenceTheoremHoldsExactlyWhereTheOctreeMeetsTheBoundary)
+  {
+    const auto body = make_box(Point(1, 1, 1));
+    for (unsigned int degree = 1; degree <= 2; ++degree)
+    {
+      // three cells of 1/2 on [-1/4, 5/4]: the boundary halves the outer ones
+      const Immersed immersed("finite cell", degree, scaled_grid(3, 1.5), {1, 0}, *body,
+                              MPI_COMM_WORLD);
+      EXPECT_LT(divergence_defect(immersed), 1e-8);
+    }
+  }
+
+  TEST(ImmersedSurface, DivergenceTheoremConvergesWithTheLevels)
+  {
+    const auto body = make_torus(1, 0.3);
+    std::array<double, 5> defect;
+    for (unsigned int levels = 0; levels <= 4; ++levels)
+    {
+      const Immersed immersed("finite cell", 1, scaled_grid(5, 1.13), {levels, 0}, *body,
+                              MPI_COMM_WORLD);
+      defect[levels] = divergence_defect(immersed);
+    }
+    // down to the difference between the torus and its facets, whose vertices alone lie on it
+    for (unsigned int levels = 1; levels <= 4; ++levels)
+      EXPECT_LT(defect[levels], defect[levels - 1]) << levels;
+    EXPECT_LT(defect[2], defect[0] / 4);
+    EXPECT_LT(defect[4], 0.01);
+  }
+
+  TEST(ImmersedSurface, FlushFacesHaveNodesThatDetermineThem)
+  {
+    const auto body = make_cylinder(0.05, 0.3);
+    const Region base("base", "z < 1e-6"), side("side", "z > 1e-6 && z < 0.3 - 1e-6");
+    for (unsigned int degree = 1; degree <= 2; ++degree)
+    {
+      const Immersed immersed("finite cell", degree, scaled_grid(4), {2, 0}, *body, MPI_COMM_WORLD);
+      EXPECT_FALSE(immersed.nodes_on(side));
+      const auto nodes = immersed.nodes_on(base);
+      ASSERT_TRUE(nodes);
+      // all 16 cells of the bottom layer are cut or inside
+      unsigned int n_owned = 0;
+      for (const unsigned int node : *nodes)
+      {
+        EXPECT_NEAR(immersed.node_positions()[node][2], 0, 1e-14);
+        n_owned += node < immersed.n_owned_nodes();
+      }
+      EXPECT_EQ(dealii::Utilities::MPI::sum(n_owned, MPI_COMM_WORLD), std::pow(4 * degree + 1, 2));
+    }
+    const Immersed shifted("finite cell", 1, scaled_grid(4, 1.01), {2, 0}, *body, MPI_COMM_WORLD);
+    EXPECT_FALSE(shifted.nodes_on(base));
+  }
+
+  TEST(ImmersedSurface, ARegionMustSelectSomething)
+  {
+    const auto body = make_sphere(1);
+    const Immersed immersed("sparse grid", 1, scaled_grid(3), {0, 0}, *body, MPI_COMM_WORLD);
+    EXPECT_THROW(immersed.surface_patches(Region("none", "z > 3")), BadInput);
+    EXPECT_THROW(immersed.nodes_on(Region("none", "z > 3")), BadInput);
+  }
+} // namespace softcell
