@@ -36,7 +36,7 @@ namespace softcell
                                                        "min_jacobian",
                                                        "converged"};
 
-    std::string quoted(const std::string &text)
+    std::string csv_cell(const std::string &text)
     {
       if (text.find_first_of(",\"\r\n") == std::string::npos)
         return text;
@@ -50,7 +50,7 @@ namespace softcell
     {
       std::string text;
       for (std::size_t i = 0; i < cells.size(); ++i)
-        text += (i == 0 ? "" : ",") + quoted(cells[i]);
+        text += (i == 0 ? "" : ",") + csv_cell(cells[i]);
       return text + '\n';
     }
 

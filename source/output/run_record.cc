@@ -20,7 +20,7 @@ namespace softcell
 {
   namespace
   {
-    std::string quoted(const std::string &text)
+    std::string json_string(const std::string &text)
     {
       std::string result = "\"";
       for (const char c : text)
@@ -50,15 +50,15 @@ namespace softcell
     {
       std::string text = "{";
       for (std::size_t i = 0; i < members.size(); ++i)
-        text += (i == 0 ? "\n" : ",\n") + indent + "  " + quoted(members[i].first) + ": " +
+        text += (i == 0 ? "\n" : ",\n") + indent + "  " + json_string(members[i].first) + ": " +
                 members[i].second;
       return text + '\n' + indent + '}';
     }
 
     std::string triple(const int major, const int minor, const int patch)
     {
-      return quoted(std::to_string(major) + '.' + std::to_string(minor) + '.' +
-                    std::to_string(patch));
+      return json_string(std::to_string(major) + '.' + std::to_string(minor) + '.' +
+                         std::to_string(patch));
     }
 
     Members libraries()
@@ -66,14 +66,14 @@ namespace softcell
       char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
       int length = 0;
       MPI_Get_library_version(mpi, &length);
-      return {{"deal.II", quoted(DEAL_II_PACKAGE_VERSION)},
-              {"CGAL", quoted(CGAL_VERSION_STR)},
+      return {{"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
+              {"CGAL", json_string(CGAL_VERSION_STR)},
               {"VTK", triple(VTK_MAJOR_VERSION, VTK_MINOR_VERSION, VTK_BUILD_VERSION)},
               {"Trilinos", triple(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
                                   DEAL_II_TRILINOS_VERSION_SUBMINOR)},
               {"PETSc", triple(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
-              {"MPI", quoted(std::string(mpi, length))},
-              {"compiler", quoted(__VERSION__)}};
+              {"MPI", json_string(std::string(mpi, length))},
+              {"compiler", json_string(__VERSION__)}};
     }
   } // namespace
 
@@ -87,19 +87,19 @@ namespace softcell
 
     Members parameters;
     for (const auto &[name, value] : record.parameters)
-      parameters.emplace_back(name, quoted(value));
+      parameters.emplace_back(name, json_string(value));
     std::string remarks;
     for (const std::string &remark : record.remarks)
-      remarks += (remarks.empty() ? "" : ", ") + quoted(remark);
+      remarks += (remarks.empty() ? "" : ", ") + json_string(remark);
 
-    return object({{"program", quoted("softcell")},
-                   {"version", quoted(version)},
-                   {"commit", quoted(commit)},
-                   {"command_line", quoted(record.command_line)},
-                   {"status", quoted(record.status)},
-                   {"message", quoted(record.message)},
-                   {"written", quoted(date)},
-                   {"host", quoted(host)},
+    return object({{"program", json_string("softcell")},
+                   {"version", json_string(version)},
+                   {"commit", json_string(commit)},
+                   {"command_line", json_string(record.command_line)},
+                   {"status", json_string(record.status)},
+                   {"message", json_string(record.message)},
+                   {"written", json_string(date)},
+                   {"host", json_string(host)},
                    {"ranks", std::to_string(record.ranks)},
                    {"wall_s", number(record.wall_s)},
                    {"remarks", "[" + remarks + "]"},
