@@ -18,7 +18,9 @@ namespace softcell
     {
       if (cells.size() == 3)
         return {{cells[0], cells[1], cells[2]}};
-      Assert(cells.size() == 1, dealii::ExcInternalError());
+      if (cells.size() != 1)
+        throw BadInput("Discretization/Cells has " + std::to_string(cells.size()) +
+                       " numbers; give one for the shortest side or three for x, y and z.");
       std::array<unsigned int, 3> n;
       const double shortest =
         std::min({box.side_length(0), box.side_length(1), box.side_length(2)});

@@ -12,7 +12,7 @@
 
 namespace softcell
 {
-  /// Meshes a body by Delaunay refinement (CGAL's Mesh_3), the same on every run.
+  /// Meshes a body by Delaunay refinement (CGAL's Mesh_3).
   ///
   /// A body of one material is meshed from its surface, of which edges sharper than 60 degrees are
   /// kept; one of several materials from its labels, so that no cell straddles two. Slivers are
