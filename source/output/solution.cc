@@ -4,6 +4,7 @@
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 #include <softcell/geometry/surface.h>
+#include <softcell/operators/elasticity.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -120,7 +121,7 @@ namespace softcell
   {
   }
 
-  void SolutionWriter::write(const double time, const Vector &u, const PatchFields &fields)
+  void SolutionWriter::write(const double time, const Vector &u, const PatchAverages &fields)
   {
     vtkNew<vtkUnstructuredGrid> grid;
     set_cells(*grid, cells_);

@@ -11,14 +11,7 @@
 namespace softcell
 {
   class Surface;
-
-  /// What is drawn of each patch of this rank, besides the displacement.
-  struct PatchFields
-  {
-    std::vector<double>
-      von_mises; // mean of the Cauchy stress's von Mises measure over the patch. Units: Pa
-    std::vector<double> jacobian; // mean of det F over the patch. Units: 1
-  };
+  struct PatchAverages;
 
   /// Writes a history of displacements: a .vtu file for each state, under MPI one for each rank and
   /// a .pvtu that joins them, and a .pvd that lists the states by load factor or time. Cells stand
@@ -31,7 +24,7 @@ namespace softcell
 
     /// Adds a state: point data `displacement` (m), cell data `von_mises` (Pa), `J` and
     /// `cut_fraction`. Collective. Ghosted u. @throws BadInput if the files cannot be written.
-    void write(double time, const Vector &u, const PatchFields &fields);
+    void write(double time, const Vector &u, const PatchAverages &fields);
 
     /// The files written so far that a user would open.
     const std::vector<std::string> &files() const

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A discretized body with its loads and supports, as a nonlinear system of equations.
+#pragma once
+
+#include <softcell/base/block_matrix.h>
+#include <softcell/base/console.h>
+#include <softcell/loads/load_list.h>
+#include <softcell/operators/elasticity.h>
+#include <softcell/solvers/linear_solver.h>
+#include <softcell/solvers/newton.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace softcell
+{
+  /// The equilibrium r(u; t) = internal forces - external forces = 0 at load factor t, with imposed
+  /// unknowns.
+  ///
+  /// Brunet eq. 2.22 and 2.28, with the sign of the latter mended: K du = -r.
+  class Model
+  {
+  public:
+    /// @param timers collects `assembly`, `preconditioner` and `linear solver`.
+    Model(const Discretization &discretization,
+          std::vector<Material> materials,
+          const Loads &loads,
+          const LinearSolverParameters &linear_solver,
+          Timers &timers);
+
+    /// Load factor t of all that follows.
+    void set_load(double t);
+
+    /// Refers to this model.
+    NonlinearProblem equations();
+
+    /// The forces by which named regions are held or loaded at u, in the order of the loads. Units:
+    /// N
+    std::vector<std::pair<std::string, Direction>> region_forces(const Vector &u) const;
+
+    const Elasticity &elasticity() const
+    {
+      return elasticity_;
+    }
+
+    /// Linear residuals of the last solve, relative.
+    const std::vector<double> &linear_history() const
+    {
+      return linear_solver_->history();
+    }
+
+  private:
+    void residual(const Vector &u, Vector &r);
+    void linearise(const Vector &u);
+    unsigned int solve(const Vector &r, const Vector &imposed, Vector &du);
+    /// Internal less external forces in all unknowns, the imposed ones too.
+    void unconstrained_residual(const Vector &u, Vector &internal, Vector &external) const;
+
+    const Discretization &discretization_;
+    Elasticity elasticity_;
+    const Loads &loads_;
+    BlockMatrix tangent_;
+    std::unique_ptr<LinearSolver> linear_solver_;
+    Timers &timers_;
+    double load_factor_ = 0;
+    double force_scale_ = 0; // of the last residual
+    double diagonal_    = 1; // of imposed rows
+    Vector internal_, external_;
+    Vector lift_; // K times what is missing of the imposed displacement, from before K lost these
+                  // columns
+  };
+} // namespace softcell

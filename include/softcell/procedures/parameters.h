@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Everything that a parameter file says, section by section.
+#pragma once
+
+#include <softcell/base/parameters.h>
+#include <softcell/discretization/methods.h>
+#include <softcell/geometry/geometry.h>
+#include <softcell/loads/load_list.h>
+#include <softcell/mechanics/material.h>
+#include <softcell/solvers/linear_solver.h>
+#include <softcell/solvers/load_steps.h>
+#include <softcell/solvers/newton.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace softcell
+{
+  /// Section Material, and each section `Material LABEL` for a label that differs.
+  struct MaterialParameters
+  {
+    std::string model    = "Neo-Hookean";
+    double young_modulus = 5000; // Pa
+    double poisson_ratio = 0.45;
+    double density       = 1000; // kg/m^3
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Section Output.
+  struct OutputParameters
+  {
+    std::string directory = "";    // empty: runs/NAME of the parameter file
+    bool volume           = true;  // solution.pvd
+    bool surface          = true;  // surface.vtp
+    bool checkpoint       = false; // HDF5
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Section Study: what is swept. Lists are empty where nothing is.
+  struct StudyParameters
+  {
+    std::string methods, degrees, cells, cut_levels, reference;
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    bool is_empty() const
+    {
+      return methods.empty() && degrees.empty() && cells.empty() && cut_levels.empty() &&
+             reference.empty();
+    }
+  };
+
+  /// One parameter file, read.
+  struct Parameters
+  {
+    GeometryParameters geometry;
+    std::vector<ParameterFile::Entry> regions;
+    MaterialParameters material;
+    std::map<std::string, MaterialParameters> label_materials; // by the label's name
+    DiscretizationParameters discretization;
+    LoadParameters loads;
+    std::vector<ParameterFile::Entry> load_entries;
+    NewtonParameters newton;
+    LoadStepParameters load_steps;
+    LinearSolverParameters linear_solver;
+    std::vector<ParameterFile::Entry> probes;
+    OutputParameters output;
+    StudyParameters study;
+
+    std::vector<ParameterFile::Entry> entries; // all of them as they were read, for the record
+
+    /// Declares every entry but the free ones.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Reads FILE.prm with `Section/Entry = value` in its place for each of the settings. Collective.
+  /// @throws BadInput
+  Parameters read_parameters(const std::string &file, const std::vector<std::string> &settings);
+} // namespace softcell

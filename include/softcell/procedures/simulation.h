@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The main loop: a body, a discretization, loads, Newton's method, a deformed body.
+#pragma once
+
+#include <softcell/base/console.h>
+#include <softcell/geometry/body.h>
+#include <softcell/output/results.h>
+#include <softcell/procedures/model.h>
+#include <softcell/procedures/parameters.h>
+#include <softcell/solvers/load_steps.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace softcell
+{
+  /// One body deformed by its loads with one method. All members are collective.
+  class Simulation
+  {
+  public:
+    /// Builds the discretization, the loads and the equations, and says how large they are.
+    /// @param body    must outlive the simulation, as the console must.
+    /// @throws BadInput
+    Simulation(const std::string &name,
+               const Parameters &parameters,
+               const Body &body,
+               Console &console);
+    ~Simulation();
+
+    /// Follows the load to its end. False if that was not reached: then the displacement is that of
+    /// the last load step that converged, and reason() says what stopped it.
+    bool solve();
+
+    const std::string &reason() const
+    {
+      return history_.reason;
+    }
+    const Discretization &discretization() const
+    {
+      return *discretization_;
+    }
+    const Vector &displacement() const
+    {
+      return displacement_;
+    }
+
+    /// How far outside all cells a point of the body may lie. Units: m
+    double reach() const;
+
+    /// What results.csv says of this case.
+    ResultsRow row() const;
+
+    /// Writes the solution files that section Output asks for.
+    void write(const std::filesystem::path &folder) const;
+
+  private:
+    /// Nominal edge of a cell, by which rates are observed. Units: m
+    double cell_size() const;
+
+    std::string name_;
+    Parameters parameters_;
+    const Body &body_;
+    Console &console_;
+    mutable Timers timers_;
+    std::vector<Material> materials_;
+    std::vector<Region> regions_;
+    std::vector<Point> probes_;
+    std::unique_ptr<Discretization> discretization_;
+    Size size_;
+    std::unique_ptr<Loads> loads_;
+    std::unique_ptr<Model> model_;
+    Vector displacement_;
+    LoadHistory history_;
+  };
+} // namespace softcell

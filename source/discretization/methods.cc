@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The list of methods.
+
+#include <softcell/discretization/fitted.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/discretization/methods.h>
+
+namespace softcell
+{
+  void DiscretizationParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    std::string names = "tetrahedra|hexahedra";
+    for (const std::string &name : cut_rule_names())
+      names += '|' + name;
+    prm.add_parameter("Method", method,
+                      "How displacements are represented and integrated: hexahedra of a background "
+                      "grid that the body cuts (finite cell, weighted cell, sparse grid), or a "
+                      "conforming mesh (tetrahedra; hexahedra of a box or a cylinder).",
+                      dealii::Patterns::Selection(names));
+    prm.add_parameter("Degree", degree, "Degree of the shape functions; 1 or 2 for tetrahedra.",
+                      dealii::Patterns::Integer(1, 8));
+    grid.add_parameters(prm);
+    cut.add_parameters(prm);
+    mesh.add_parameters(prm);
+  }
+
+  bool has_cut_levels(const std::string &method)
+  {
+    return method == "finite cell" || method == "weighted cell";
+  }
+
+  std::unique_ptr<Discretization> make_discretization(const DiscretizationParameters &parameters,
+                                                      const GeometryParameters &geometry,
+                                                      const Body &body,
+                                                      MPI_Comm communicator,
+                                                      std::vector<std::string> &remarks)
+  {
+    if (parameters.method == "tetrahedra" || parameters.method == "hexahedra")
+      return std::make_unique<Fitted>(
+        communicator,
+        make_mesh(communicator,
+                  parameters.method == "tetrahedra" ? CellShape::tetrahedra : CellShape::hexahedra,
+                  parameters.grid.cells, parameters.mesh, geometry, body, remarks),
+        parameters.degree, body);
+    return std::make_unique<Immersed>(parameters.method, parameters.degree, parameters.grid,
+                                      parameters.cut, body, communicator);
+  }
+} // namespace softcell

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Puts elasticity, loads and supports together.
+
+#include <softcell/procedures/model.h>
+
+namespace softcell
+{
+  namespace
+  {
+    std::vector<std::vector<unsigned int>> couplings(const Elasticity &elasticity,
+                                                     const Loads &loads)
+    {
+      std::vector<std::vector<unsigned int>> lists = elasticity.couplings();
+      for (const auto &force : loads.forces)
+        force->add_couplings(lists);
+      return lists;
+    }
+
+    /// Mean magnitude of the diagonal of the owned rows of all ranks.
+    double mean_diagonal(const BlockMatrix &matrix)
+    {
+      const Partitioner &unknowns  = *matrix.partitioner();
+      const unsigned int n_owned   = unknowns.locally_owned_size() / 3;
+      const unsigned int first_row = unknowns.local_range().first / 3;
+      double sum                   = 0;
+      for (unsigned int row = 0; row < n_owned; ++row)
+      {
+        const std::size_t begin = matrix.row_start()[row];
+        const std::size_t n     = matrix.row_start()[row + 1] - begin;
+        const auto columns      = matrix.columns().begin() + begin;
+        const std::size_t block = std::lower_bound(columns, columns + n, first_row + row) - columns;
+        for (unsigned int c = 0; c < 3; ++c)
+          sum += std::abs(matrix.values()[9 * begin + (c * n + block) * 3 + c]);
+      }
+      return dealii::Utilities::MPI::sum(sum, unknowns.get_mpi_communicator()) / unknowns.size();
+    }
+  } // namespace
+
+  Model::Model(const Discretization &discretization,
+               std::vector<Material> materials,
+               const Loads &loads,
+               const LinearSolverParameters &linear_solver,
+               Timers &timers)
+      : discretization_(discretization),
+        elasticity_(discretization, std::move(materials)),
+        loads_(loads),
+        tangent_(discretization.partitioner(), couplings(elasticity_, loads)),
+        linear_solver_(make_linear_solver(linear_solver)),
+        timers_(timers),
+        internal_(discretization.make_vector()),
+        external_(discretization.make_vector()),
+        lift_(discretization.make_vector())
+  {
+  }
+
+  void Model::set_load(const double t)
+  {
+    load_factor_ = t;
+  }
+
+  NonlinearProblem Model::equations()
+  {
+    NonlinearProblem problem;
+    problem.residual  = [this](const Vector &u, Vector &r) { residual(u, r); };
+    problem.linearise = [this](const Vector &u) { linearise(u); };
+    problem.solve     = [this](const Vector &r, const Vector &imposed, Vector &du) {
+      return solve(r, imposed, du);
+    };
+    if (!loads_.imposed.regions().empty())
+      problem.missing_imposed = [this](const Vector &u, Vector &missing) {
+        loads_.imposed.missing(u, load_factor_, missing);
+      };
+    problem.force_scale = [this](const Vector & /*u*/) { return force_scale_; };
+    return problem;
+  }
+
+  std::vector<std::pair<std::string, Direction>> Model::region_forces(const Vector &u) const
+  {
+    std::vector<std::pair<std::string, Direction>> forces;
+    for (const auto &force : loads_.forces)
+      forces.emplace_back(force->region(), force->total_force(u, load_factor_));
+
+    Vector internal = discretization_.make_vector(), external = discretization_.make_vector();
+    unconstrained_residual(u, internal, external);
+    internal += external;
+    const std::vector<Direction> reactions = loads_.imposed.reactions(internal);
+    for (unsigned int i = 0; i < reactions.size(); ++i)
+      forces.emplace_back(loads_.imposed.regions()[i], reactions[i]);
+    return forces;
+  }
+
+  void Model::unconstrained_residual(const Vector &u, Vector &internal, Vector &external) const
+  {
+    internal = 0;
+    external = 0;
+    elasticity_.add_residual(u, internal);
+    for (const auto &force : loads_.forces)
+      force->add_residual(u, load_factor_, external);
+    internal.compress(dealii::VectorOperation::add);
+    external.compress(dealii::VectorOperation::add);
+  }
+
+  void Model::residual(const Vector &u, Vector &r)
+  {
+    const Timers::Scope scope(timers_, "residual");
+    unconstrained_residual(u, internal_, external_);
+    force_scale_ = internal_.l2_norm() + external_.l2_norm();
+    r            = internal_;
+    r += external_;
+    for (const unsigned int unknown : loads_.imposed.unknowns())
+      if (unknown < r.locally_owned_size())
+        r.local_element(unknown) = 0;
+  }
+
+  void Model::linearise(const Vector &u)
+  {
+    {
+      const Timers::Scope scope(timers_, "assembly");
+      tangent_.set_zero();
+      elasticity_.add_tangent(u, tangent_);
+      for (const auto &force : loads_.forces)
+        force->add_tangent(u, load_factor_, tangent_);
+      tangent_.compress();
+    }
+    const Timers::Scope scope(timers_, "preconditioner");
+    if (!loads_.imposed.regions().empty())
+    {
+      Vector missing = discretization_.make_vector();
+      loads_.imposed.missing(u, load_factor_, missing);
+      tangent_.vmult(lift_, missing);
+      diagonal_ = mean_diagonal(tangent_);
+      tangent_.constrain(loads_.imposed.unknowns(), diagonal_);
+    }
+    linear_solver_->set_matrix(tangent_, discretization_.node_positions(),
+                               loads_.imposed.unknowns());
+  }
+
+  unsigned int Model::solve(const Vector &r, const Vector &imposed, Vector &du)
+  {
+    const Timers::Scope scope(timers_, "linear solver");
+    Vector b = discretization_.make_vector();
+    b.add(-1., r, -1., lift_);
+    for (const unsigned int unknown : loads_.imposed.unknowns())
+      if (unknown < b.locally_owned_size())
+        b.local_element(unknown) = diagonal_ * imposed.local_element(unknown);
+    const unsigned int iterations = linear_solver_->solve(du, b);
+    for (const unsigned int unknown : loads_.imposed.unknowns())
+      if (unknown < du.locally_owned_size())
+        du.local_element(unknown) = imposed.local_element(unknown);
+    return iterations;
+  }
+} // namespace softcell

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The main loop.
+
+#include <softcell/procedures/simulation.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/evaluation.h>
+#include <softcell/discretization/methods.h>
+#include <softcell/output/checkpoint.h>
+#include <softcell/output/solution.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace softcell
+{
+  namespace
+  {
+    std::vector<Material> make_materials(const Parameters &parameters, const Body &body)
+    {
+      std::vector<Material> materials;
+      std::map<std::string, MaterialParameters> unused = parameters.label_materials;
+      for (unsigned int label = 0; label < body.n_labels(); ++label)
+      {
+        const std::string name             = body.label_name(label);
+        const auto own                     = parameters.label_materials.find(name);
+        const bool has_own                 = own != parameters.label_materials.end();
+        const MaterialParameters &material = has_own ? own->second : parameters.material;
+        materials.emplace_back(material.model, material.young_modulus, material.poisson_ratio,
+                               material.density, has_own ? "Material " + name : "Material");
+        unused.erase(name);
+      }
+      if (!unused.empty())
+        throw BadInput("There is a section 'Material " + unused.begin()->first +
+                       "', but the body has no such label.");
+      return materials;
+    }
+
+    std::vector<Region> make_regions(const Parameters &parameters)
+    {
+      std::vector<Region> regions;
+      for (const auto &[name, condition] : parameters.regions)
+        regions.emplace_back(name, condition);
+      return regions;
+    }
+
+    std::vector<Point> probe_points(const Parameters &parameters)
+    {
+      std::vector<Point> points;
+      for (const auto &[name, text] : parameters.probes)
+      {
+        std::istringstream stream(text);
+        Point X;
+        char comma[2] = {',', ','};
+        if (!(stream >> X[0] >> comma[0] >> X[1] >> comma[1] >> X[2]) ||
+            !(stream >> std::ws).eof() || comma[0] != ',' || comma[1] != ',')
+          throw BadInput("Probes/" + name + " = '" + text +
+                         "' is not a point; give three numbers in m, as 0, 0, 0.6.");
+        points.push_back(X);
+      }
+      return points;
+    }
+
+    std::string in_digits(const double value, const int digits = 2)
+    {
+      std::ostringstream text;
+      text << std::setprecision(digits) << std::scientific << value;
+      return text.str();
+    }
+
+    /// (int |u|^2 dV)^(1/2). Units: m^(5/2)
+    double l2_norm(const Discretization &discretization, const Vector &u)
+    {
+      double sum = 0;
+      PatchStorage storage;
+      for (unsigned int i = 0; i < discretization.n_patches(); ++i)
+      {
+        const Patch patch = discretization.patch(i, storage);
+        for (unsigned int q = 0; q < patch.n_points(); ++q)
+          sum +=
+            interpolate(patch.nodes, patch.shapes->value(q), u).norm_square() * patch.weights[q];
+      }
+      return std::sqrt(dealii::Utilities::MPI::sum(sum, discretization.communicator()));
+    }
+  } // namespace
+
+  Simulation::Simulation(const std::string &name,
+                         const Parameters &parameters,
+                         const Body &body,
+                         Console &console)
+      : name_(name),
+        parameters_(parameters),
+        body_(body),
+        console_(console),
+        materials_(make_materials(parameters, body)),
+        regions_(make_regions(parameters)),
+        probes_(probe_points(parameters))
+  {
+    const std::vector<LoadDescription> loads = parse_loads(parameters.load_entries, regions_);
+
+    const Timers::Scope scope(timers_, "setup");
+    std::vector<std::string> remarks;
+    discretization_ = make_discretization(parameters.discretization, parameters.geometry, body,
+                                          MPI_COMM_WORLD, remarks);
+    size_           = discretization_->size();
+    console_.say("  " + std::to_string(size_.cells) + " cells, " + std::to_string(size_.cut_cells) +
+                 " of them cut, " + std::to_string(size_.unknowns) + " unknowns, " +
+                 std::to_string(size_.integration_points) + " integration points");
+    for (const std::string &remark : remarks)
+      console_.say("  " + remark);
+
+    loads_ = std::make_unique<Loads>(
+      make_loads(parameters.loads, loads, regions_, *discretization_, body.surface(), materials_));
+    if (!loads_->free_motions.empty())
+      throw BadInput("Loads: " + loads_->free_motions);
+    displacement_ = discretization_->make_vector();
+    model_        = std::make_unique<Model>(*discretization_, materials_, *loads_,
+                                     parameters.linear_solver, timers_);
+  }
+
+  Simulation::~Simulation() = default;
+
+  bool Simulation::solve()
+  {
+    const auto begin_step = [&](const LoadStep &step) {
+      std::ostringstream text;
+      text << "  load " << std::setprecision(4) << step.from << " -> " << step.to;
+      if (step.attempt > 1)
+        text << " (attempt " << step.attempt << ')';
+      console_.say(text.str());
+    };
+    const auto report = [&](const NewtonIteration &iteration) {
+      std::ostringstream text;
+      text << "    iteration " << std::setw(2) << iteration.iteration << ": residual "
+           << in_digits(iteration.residual) << ", update " << in_digits(iteration.update)
+           << ", step " << std::setprecision(3) << iteration.step << ", "
+           << iteration.linear_iterations << " linear iterations";
+      console_.say(text.str());
+    };
+    const Timers::Scope scope(timers_, "solve");
+    history_ = follow_load(
+      model_->equations(), parameters_.newton, parameters_.load_steps,
+      [&](const double t) { model_->set_load(t); }, displacement_, begin_step, report);
+    return history_.converged;
+  }
+
+  double Simulation::reach() const
+  {
+    const auto [lower, upper] = body_.bounding_box().get_boundary_points();
+    return 0.1 * (upper - lower).norm();
+  }
+
+  ResultsRow Simulation::row() const
+  {
+    const Elasticity &elasticity = model_->elasticity();
+    ResultsRow row;
+    row.set("case", name_);
+    row.set("method", parameters_.discretization.method);
+    row.set("degree", discretization_->degree());
+    if (has_cut_levels(parameters_.discretization.method))
+      row.set("cut_levels", parameters_.discretization.cut.levels);
+    row.set("cells", size_.cells);
+    row.set("cut_cells", size_.cut_cells);
+    row.set("dofs", size_.unknowns);
+    row.set("integration_points", size_.integration_points);
+    row.set("load_steps", history_.load_steps);
+    row.set("newton_iterations", history_.newton_iterations);
+    row.set("linear_iterations", history_.linear_iterations);
+    row.set("setup_s", timers_.seconds("setup"));
+    row.set("assembly_s", timers_.mean("assembly"));
+    row.set("solve_s", timers_.seconds("solve"));
+    row.set("total_s", timers_.total());
+    row.set("peak_rss_mib", peak_rss_mib(MPI_COMM_WORLD));
+    row.set("volume", elasticity.volume());
+    row.set("strain_energy", elasticity.energy(displacement_));
+    row.set("l2_displacement", l2_norm(*discretization_, displacement_));
+    row.set("min_jacobian", elasticity.min_jacobian(displacement_));
+    row.set("converged", history_.converged);
+    row.set("load_factor", history_.reached);
+    row.set("cell_size", cell_size());
+
+    const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const PointValues at_probes =
+      evaluate(*discretization_, displacement_, is_root ? probes_ : std::vector<Point>(), reach());
+    const char *const axes[] = {"x", "y", "z"};
+    for (unsigned int i = 0; is_root && i < probes_.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        row.set(parameters_.probes[i].first + "_u" + axes[c], at_probes.displacements[i][c]);
+
+    std::map<std::string, Direction> forces; // a region may have several loads
+    for (const auto &[region, force] : model_->region_forces(displacement_))
+      forces[region] += force;
+    for (const auto &[region, force] : forces)
+      for (unsigned int c = 0; c < 3; ++c)
+        row.set(region + "_f" + axes[c], force[c]);
+    return row;
+  }
+
+  double Simulation::cell_size() const
+  {
+    const DiscretizationParameters &parameters = parameters_.discretization;
+    if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
+      return parameters.mesh.size;
+    if (has_cut_levels(parameters.method) && parameters.grid.cell_size > 0)
+      return parameters.grid.cell_size;
+    const Box box = body_.bounding_box();
+    return std::min({box.side_length(0), box.side_length(1), box.side_length(2)}) /
+           parameters.grid.cells[0];
+  }
+
+  void Simulation::write(const std::filesystem::path &folder) const
+  {
+    const Timers::Scope scope(timers_, "output");
+    const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (is_root)
+      std::filesystem::create_directories(folder);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (parameters_.output.volume)
+      SolutionWriter(*discretization_, (folder / "solution").string())
+        .write(history_.reached, displacement_, model_->elasticity().averages(displacement_));
+    if (parameters_.output.surface)
+    {
+      const PointValues values =
+        evaluate(*discretization_, displacement_,
+                 is_root ? body_.surface().vertices() : std::vector<Point>(), reach());
+      if (is_root)
+        write_deformed_surface((folder / "surface.vtp").string(), body_.surface(),
+                               values.displacements);
+    }
+    if (parameters_.output.checkpoint)
+      write_checkpoint((folder / "checkpoint.h5").string(), *discretization_, displacement_,
+                       history_.reached);
+  }
+} // namespace softcell
