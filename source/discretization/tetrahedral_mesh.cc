@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tetrahedral meshes: of any body by CGAL, from a Gmsh file, and the structured one of a box.
 #include <softcell/base/exceptions.h>
+#include <softcell/discretization/sliver_removal.h>
 #include <softcell/discretization/tetrahedral_mesh.h>
 #include <softcell/geometry/surface.h>
 
@@ -47,8 +48,8 @@ namespace softcell
 
     /// Numbers vertices along a Hilbert curve and cells by their vertices, so that what is near in
     /// space is near in memory and the order in which tetrahedra were found does not matter; turns
-    /// them to positive volume.
-    void put_in_order(Mesh &mesh)
+    /// them to positive volume. Returns the new numbers of the vertices.
+    std::vector<unsigned int> put_in_order(Mesh &mesh)
     {
       std::vector<Kernel::Point_3> points;
       for (const Point &X : mesh.vertices)
@@ -82,6 +83,7 @@ namespace softcell
         if (volume_of(mesh, cell) < 0)
           std::swap(mesh.corners[4 * cell + 2], mesh.corners[4 * cell + 3]);
       }
+      return number;
     }
 
     /// Rank 0 makes the mesh; all get it, or all throw what went wrong there.
@@ -92,8 +94,6 @@ namespace softcell
         try
         {
           result.first = make();
-          if (result.first.corners_per_cell == 4)
-            put_in_order(result.first);
         }
         catch (const BadInput &error)
         {
@@ -121,9 +121,11 @@ namespace softcell
         parameters::facet_size = 0.7 * size, parameters::facet_distance = 0.1 * size,
         parameters::cell_radius_edge_ratio = 2, parameters::cell_size = 0.8 * size);
       CGAL::get_default_random() = CGAL::Random(0);
-      const auto complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_exude());
+      const auto complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
+                                                      parameters::no_exude());
 
       Mesh mesh;
+      std::vector<bool> is_inside;
       std::unordered_map<typename Triangulation::Vertex_handle, unsigned int> numbers;
       for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end();
            ++cell)
@@ -132,10 +134,18 @@ namespace softcell
           const auto vertex              = cell->vertex(v);
           const auto [entry, new_vertex] = numbers.emplace(vertex, mesh.vertices.size());
           if (new_vertex)
+          {
             mesh.vertices.emplace_back(vertex->point().x(), vertex->point().y(),
                                        vertex->point().z());
+            is_inside.push_back(vertex->in_dimension() == 3);
+          }
           mesh.corners.push_back(entry->second);
         }
+      const std::vector<unsigned int> number = put_in_order(mesh);
+      std::vector<bool> movable(number.size());
+      for (unsigned int i = 0; i < number.size(); ++i)
+        movable[number[i]] = is_inside[i];
+      remove_slivers(mesh, movable);
       return mesh;
     }
 
@@ -250,6 +260,8 @@ namespace softcell
             mesh.face_patches.push_back(face->boundary_id());
           }
       }
+      if (mesh.corners_per_cell == 4)
+        put_in_order(mesh);
       return mesh;
     });
   }

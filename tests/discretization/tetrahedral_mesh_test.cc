@@ -142,6 +142,15 @@ namespace softcell
     EXPECT_GE(on_top_rim, 15u);
   }
 
+  TEST(TetrahedralMesh, IsTheSameEveryTimeAndEverywhere)
+  {
+    const auto body = make_sphere(0.5);
+    const Mesh one  = tetrahedral_mesh(MPI_COMM_WORLD, *body, 0.3),
+               two  = tetrahedral_mesh(MPI_COMM_SELF, *body, 0.3);
+    EXPECT_EQ(one.vertices, two.vertices);
+    EXPECT_EQ(one.corners, two.corners);
+  }
+
   TEST(TetrahedralMesh, RespectsLabels)
   {
     const double size = 0.25;

@@ -12,11 +12,11 @@
 
 namespace softcell
 {
-  /// Meshes a body by Delaunay refinement (CGAL's Mesh_3).
+  /// Meshes a body by Delaunay refinement (CGAL's Mesh_3), the same on every run.
   ///
   /// A body of one material is meshed from its surface, of which edges sharper than 60 degrees are
   /// kept; one of several materials from its labels, so that no cell straddles two. Slivers are
-  /// perturbed and exuded. Rank 0 does the work and sends the mesh to the others. Collective.
+  /// removed. Rank 0 does the work and sends the mesh to the others. Collective.
   ///
   /// @param size mean length of an edge, roughly. Units: m
   /// @throws BadInput if nothing comes of it.
