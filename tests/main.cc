@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Runs the unit tests with MPI and p4est set up; only rank 0 reports, and any rank's failure is the run's.
+// Runs the unit tests with MPI and p4est set up; only rank 0 reports, and any rank's failure is the
+// run's.
 
 #include <deal.II/base/mpi.h>
 

@@ -47,8 +47,7 @@ namespace softcell
     std::vector<double> buffer;
     mutable Vector x; // with ghost values for all columns
 
-    unsigned int
-    global_node(const unsigned int node) const
+    unsigned int global_node(const unsigned int node) const
     {
       return unknowns->local_to_global(3 * node) / 3;
     }
@@ -91,8 +90,7 @@ namespace softcell
 
   /// Merges the ghost rows of other ranks into the owned rows, stores the rows and prepares
   /// compress().
-  void
-  BlockMatrix::Data::exchange_pattern(std::vector<std::vector<unsigned int>> &pattern)
+  void BlockMatrix::Data::exchange_pattern(std::vector<std::vector<unsigned int>> &pattern)
   {
     // A message is row, length, columns, row, ...; the ghost rows of one owner lie together.
     std::map<unsigned int, std::vector<unsigned int>> messages;
@@ -153,8 +151,7 @@ namespace softcell
     }
   }
 
-  void
-  BlockMatrix::Data::number_columns()
+  void BlockMatrix::Data::number_columns()
   {
     dealii::IndexSet ghosts = unknowns->ghost_indices();
     std::vector<dealii::types::global_dof_index> more;
@@ -192,14 +189,12 @@ namespace softcell
   BlockMatrix::~BlockMatrix()                       = default;
   BlockMatrix::BlockMatrix(BlockMatrix &&) noexcept = default;
 
-  void
-  BlockMatrix::set_zero()
+  void BlockMatrix::set_zero()
   {
     std::fill(data_->values.begin(), data_->values.end(), 0.);
   }
 
-  void
-  BlockMatrix::add(const View<const unsigned int> nodes, const double *const patch_values)
+  void BlockMatrix::add(const View<const unsigned int> nodes, const double *const patch_values)
   {
     Data &d              = *data_;
     const unsigned int n = nodes.size();
@@ -231,8 +226,7 @@ namespace softcell
     }
   }
 
-  void
-  BlockMatrix::compress()
+  void BlockMatrix::compress()
   {
     Data &d                     = *data_;
     constexpr int tag           = 231;
@@ -265,8 +259,8 @@ namespace softcell
     std::fill(d.values.begin() + 9 * d.row_start[d.n_owned], d.values.end(), 0.);
   }
 
-  void
-  BlockMatrix::constrain(const std::vector<unsigned int> &local_unknowns, const double diagonal)
+  void BlockMatrix::constrain(const std::vector<unsigned int> &local_unknowns,
+                              const double diagonal)
   {
     Data &d = *data_;
     Vector marks(d.column_unknowns);
@@ -292,8 +286,7 @@ namespace softcell
     }
   }
 
-  void
-  BlockMatrix::vmult(Vector &y, const Vector &x) const
+  void BlockMatrix::vmult(Vector &y, const Vector &x) const
   {
     const Data &d = *data_;
     std::copy_n(x.begin(), 3 * d.n_owned, d.x.begin());
@@ -322,26 +315,22 @@ namespace softcell
     }
   }
 
-  const std::vector<std::size_t> &
-  BlockMatrix::row_start() const
+  const std::vector<std::size_t> &BlockMatrix::row_start() const
   {
     return data_->row_start;
   }
 
-  const std::vector<unsigned int> &
-  BlockMatrix::columns() const
+  const std::vector<unsigned int> &BlockMatrix::columns() const
   {
     return data_->columns;
   }
 
-  const std::vector<double> &
-  BlockMatrix::values() const
+  const std::vector<double> &BlockMatrix::values() const
   {
     return data_->values;
   }
 
-  const std::shared_ptr<const Partitioner> &
-  BlockMatrix::partitioner() const
+  const std::shared_ptr<const Partitioner> &BlockMatrix::partitioner() const
   {
     return data_->unknowns;
   }

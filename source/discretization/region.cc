@@ -51,8 +51,7 @@ namespace softcell
   Region::~Region()                  = default;
   Region::Region(Region &&) noexcept = default;
 
-  bool
-  Region::contains(const Point &X, const Direction &normal, const unsigned int patch) const
+  bool Region::contains(const Point &X, const Direction &normal, const unsigned int patch) const
   {
     if (condition_->patch)
       return patch == *condition_->patch;

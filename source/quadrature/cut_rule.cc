@@ -7,8 +7,7 @@
 
 namespace softcell
 {
-  void
-  CutParameters::add_parameters(dealii::ParameterHandler &prm)
+  void CutParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Cut levels", levels,
                       "How often a cell that the body's boundary cuts is halved to find what is "
@@ -29,8 +28,7 @@ namespace softcell
     };
 
     // A new rule is its own file and one line here.
-    const std::vector<CutRuleEntry> &
-    cut_rules()
+    const std::vector<CutRuleEntry> &cut_rules()
     {
       static const std::vector<CutRuleEntry> rules = {
         {"finite cell",
@@ -53,8 +51,7 @@ namespace softcell
     }
   } // namespace
 
-  std::vector<std::string>
-  cut_rule_names()
+  std::vector<std::string> cut_rule_names()
   {
     std::vector<std::string> names;
     for (const CutRuleEntry &rule : cut_rules())
@@ -62,11 +59,10 @@ namespace softcell
     return names;
   }
 
-  std::unique_ptr<CutRule>
-  make_cut_rule(const std::string &name,
-                const CutParameters &parameters,
-                const unsigned int degree,
-                const Body &body)
+  std::unique_ptr<CutRule> make_cut_rule(const std::string &name,
+                                         const CutParameters &parameters,
+                                         const unsigned int degree,
+                                         const Body &body)
   {
     std::string known;
     for (const CutRuleEntry &rule : cut_rules())

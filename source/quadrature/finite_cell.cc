@@ -17,8 +17,7 @@ namespace softcell
     Assert(parameters.levels >= 1 && parameters.levels <= max_levels, dealii::ExcInternalError());
   }
 
-  double
-  FiniteCell::add(const Box &cell)
+  double FiniteCell::add(const Box &cell)
   {
     const auto &[lower, upper] = cell.get_boundary_points();
     cells_.back().lower        = lower;
@@ -51,8 +50,7 @@ namespace softcell
     return volume;
   }
 
-  void
-  FiniteCell::add_cut_leaf(const Box &leaf, const LeafCode code, double &volume)
+  void FiniteCell::add_cut_leaf(const Box &leaf, const LeafCode code, double &volume)
   {
     std::vector<unsigned char> mask(mask_bytes_, 0);
     unsigned int n_inside = 0;
@@ -75,16 +73,14 @@ namespace softcell
       outside_.push_back(code);
   }
 
-  void
-  FiniteCell::points(const unsigned int index, CutPoints &result) const
+  void FiniteCell::points(const unsigned int index, CutPoints &result) const
   {
     place_points(cells_[index], cells_[index + 1], result);
     const auto labels = labels_[index];
     result.labels.assign(labels.begin(), labels.end());
   }
 
-  void
-  FiniteCell::place_points(const Cell &cell, const Cell &next, CutPoints &result) const
+  void FiniteCell::place_points(const Cell &cell, const Cell &next, CutPoints &result) const
   {
     result.points.clear();
     result.weights.clear();

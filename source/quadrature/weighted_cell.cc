@@ -25,8 +25,7 @@ namespace softcell
             Box({Point(ends[i], ends[j], ends[k]), Point(ends[i + 1], ends[j + 1], ends[k + 1])}));
   }
 
-  double
-  WeightedCell::add(const Box &cell)
+  double WeightedCell::add(const Box &cell)
   {
     const double cell_volume = cell.volume();
     double volume            = 0;
@@ -53,8 +52,7 @@ namespace softcell
     return volume;
   }
 
-  WeightedCell::Filled
-  WeightedCell::filled(const Box &part, const Point &gauss_point) const
+  WeightedCell::Filled WeightedCell::filled(const Box &part, const Point &gauss_point) const
   {
     double fraction = 0;
     std::vector<double> fraction_of(body_.n_labels(), 0.);
@@ -86,8 +84,7 @@ namespace softcell
                                        fraction_of.begin())};
   }
 
-  void
-  WeightedCell::points(const unsigned int index, CutPoints &result) const
+  void WeightedCell::points(const unsigned int index, CutPoints &result) const
   {
     const double *begin = weights_.data() + std::size_t(index) * gauss_.size();
     result.weights.assign(begin, begin + gauss_.size());

@@ -28,15 +28,13 @@ namespace
     std::shared_ptr<const Partitioner> unknowns;
     std::vector<std::vector<unsigned int>> patches; // local nodes
 
-    std::array<unsigned int, 3>
-    patch(const unsigned int i) const
+    std::array<unsigned int, 3> patch(const unsigned int i) const
     {
       return {{i, (i + 1) % n_nodes, (i + 6) % n_nodes}};
     }
 
     /// A symmetric matrix that is different for each patch, in the layout of BlockMatrix::add().
-    static std::vector<double>
-    patch_values(const unsigned int i)
+    static std::vector<double> patch_values(const unsigned int i)
     {
       std::vector<double> values(81);
       for (unsigned int r = 0; r < 9; ++r)
@@ -62,24 +60,21 @@ namespace
       }
     }
 
-    BlockMatrix
-    assembled() const
+    BlockMatrix assembled() const
     {
       BlockMatrix matrix(unknowns, patches);
       assemble(matrix);
       return matrix;
     }
 
-    void
-    assemble(BlockMatrix &matrix) const
+    void assemble(BlockMatrix &matrix) const
     {
       for (unsigned int i = 0; i < per_rank; ++i)
         matrix.add(dealii::make_array_view(patches[i]), patch_values(per_rank * rank + i).data());
       matrix.compress();
     }
 
-    dealii::FullMatrix<double>
-    dense() const
+    dealii::FullMatrix<double> dense() const
     {
       dealii::FullMatrix<double> matrix(3 * n_nodes);
       for (unsigned int i = 0; i < n_nodes; ++i)
@@ -91,8 +86,7 @@ namespace
     }
 
     /// Compares the owned rows, entry by entry and as a product.
-    void
-    expect_equal(const BlockMatrix &matrix, const dealii::FullMatrix<double> &expected) const
+    void expect_equal(const BlockMatrix &matrix, const dealii::FullMatrix<double> &expected) const
     {
       dealii::FullMatrix<double> rows(3 * n_nodes);
       const unsigned int first = 3 * per_rank * rank;

@@ -16,19 +16,16 @@ namespace softcell
         : radius_(radius), centre_(centre)
     {
     }
-    Box
-    bounding_box() const override
+    Box bounding_box() const override
     {
       const Direction r({radius_, radius_, radius_});
       return Box({centre_ - r, centre_ + r});
     }
-    bool
-    contains(const Point &X) const override
+    bool contains(const Point &X) const override
     {
       return X.distance(centre_) < radius_;
     }
-    Side
-    classify(const Box &box) const override
+    Side classify(const Box &box) const override
     {
       Direction nearest, farthest;
       for (unsigned int d = 0; d < 3; ++d)
@@ -46,13 +43,11 @@ namespace softcell
     {
       return classify(box) == Side::outside ? 0 : box.volume();
     }
-    double
-    volume() const override
+    double volume() const override
     {
       return 4. / 3 * M_PI * std::pow(radius_, 3);
     }
-    const Surface &
-    surface() const override
+    const Surface &surface() const override
     {
       throw dealii::ExcNotImplemented();
     }
@@ -67,24 +62,20 @@ namespace softcell
   {
   public:
     explicit Brick(const Box &box, const double split = 1e300) : box_(box), split_(split) {}
-    Box
-    bounding_box() const override
+    Box bounding_box() const override
     {
       return box_;
     }
-    bool
-    contains(const Point &X) const override
+    bool contains(const Point &X) const override
     {
       return box_.point_inside(X, 0.);
     }
-    Side
-    classify(const Box &box) const override
+    Side classify(const Box &box) const override
     {
       const double filled = filled_volume(box);
       return filled <= 0 ? Side::outside : filled < box.volume() ? Side::cut : Side::inside;
     }
-    double
-    filled_volume(const Box &box) const override
+    double filled_volume(const Box &box) const override
     {
       double v = 1;
       for (unsigned int d = 0; d < 3; ++d)
@@ -92,23 +83,19 @@ namespace softcell
                             std::max(box.lower_bound(d), box_.lower_bound(d)));
       return v;
     }
-    double
-    volume() const override
+    double volume() const override
     {
       return box_.volume();
     }
-    const Surface &
-    surface() const override
+    const Surface &surface() const override
     {
       throw dealii::ExcNotImplemented();
     }
-    unsigned int
-    n_labels() const override
+    unsigned int n_labels() const override
     {
       return split_ < 1e300 ? 2 : 1;
     }
-    unsigned int
-    label(const Point &X) const override
+    unsigned int label(const Point &X) const override
     {
       return X[0] > split_;
     }

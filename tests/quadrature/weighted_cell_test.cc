@@ -15,8 +15,7 @@ namespace softcell
     const Box unit_cell({Point(), Point(1, 1, 1)});
     const Ball corner_ball(0.8, Point(0.1, 0.2, 0.3));
 
-    double
-    total(const CutPoints &points)
+    double total(const CutPoints &points)
     {
       return std::accumulate(points.weights.begin(), points.weights.end(), 0.);
     }

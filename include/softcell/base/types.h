@@ -18,7 +18,8 @@ namespace softcell
   using Box         = dealii::BoundingBox<3>;
   using Partitioner = dealii::Utilities::MPI::Partitioner;
 
-  /// Values of the unknowns: 3 * node + component, this rank's nodes first and its ghost nodes after them.
+  /// Values of the unknowns: 3 * node + component, this rank's nodes first and its ghost nodes
+  /// after them.
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   template <class T>

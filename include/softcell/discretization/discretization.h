@@ -14,50 +14,53 @@
 
 namespace softcell
 {
-  /// Memory for a patch that is generated on demand; keep one per thread and use it again and again.
+  /// Memory for a patch that is generated on demand; keep one per thread and use it again and
+  /// again.
   struct PatchStorage
   {
-    std::vector<unsigned int>  nodes;
-    std::vector<double>        weights;
-    std::vector<Point>         points;
+    std::vector<unsigned int> nodes;
+    std::vector<double> weights;
+    std::vector<Point> points;
     std::vector<unsigned char> labels;
-    ShapeTable                 shapes;
+    ShapeTable shapes;
   };
 
   /// Shape functions at one point: u(X) = sum_i values[i] u_{nodes[i]}.
   struct PointShapes
   {
-    std::vector<unsigned int> nodes;     // local node numbers
-    std::vector<double>       values;    // (n_nodes)
-    std::vector<double>       gradients; // (3, n_nodes). Units: 1/m
-    double                    distance = 0; // of the point from the cell that was found; 0 inside. Units: m
+    std::vector<unsigned int> nodes; // local node numbers
+    std::vector<double> values;      // (n_nodes)
+    std::vector<double> gradients;   // (3, n_nodes). Units: 1/m
+    double distance = 0; // of the point from the cell that was found; 0 inside. Units: m
   };
 
-  /// A cell to draw. The corners are in VTK's order; `nodes` are the same corners (and, at degree 2 and above,
-  /// VTK's further points of a Lagrange cell) as combinations of nodes through `constraints`.
+  /// A cell to draw. The corners are in VTK's order; `nodes` are the same corners (and, at degree 2
+  /// and above, VTK's further points of a Lagrange cell) as combinations of nodes through
+  /// `constraints`.
   struct DrawnCells
   {
-    std::vector<unsigned char> types;         // VTK's cell types (n_cells)
-    std::vector<unsigned int>  offsets;       // (n_cells + 1) into connectivity
-    std::vector<unsigned int>  connectivity;  // point numbers
-    std::vector<Point>         points;        // (n_points)
-    std::vector<PointShapes>   shapes;        // (n_points) the displacement there; only values are filled
-    std::vector<unsigned int>  patches;       // (n_cells) number of the cell's patch
-    std::vector<double>        cut_fraction;  // (n_cells) filled part of the cell, 1 if not cut
+    std::vector<unsigned char> types;       // VTK's cell types (n_cells)
+    std::vector<unsigned int> offsets;      // (n_cells + 1) into connectivity
+    std::vector<unsigned int> connectivity; // point numbers
+    std::vector<Point> points;              // (n_points)
+    std::vector<PointShapes> shapes;   // (n_points) the displacement there; only values are filled
+    std::vector<unsigned int> patches; // (n_cells) number of the cell's patch
+    std::vector<double> cut_fraction;  // (n_cells) filled part of the cell, 1 if not cut
   };
 
   /// How much work a discretization is.
   struct Size
   {
-    std::size_t cells = 0, cut_cells = 0, unknowns = 0, integration_points = 0; // summed over all ranks
+    std::size_t cells = 0, cut_cells = 0, unknowns = 0,
+                integration_points = 0; // summed over all ranks
   };
 
   /// Unknowns, and the patches on which they are integrated.
   ///
-  /// Every rank owns a contiguous range of nodes and some patches. A local node number is below n_owned_nodes() for
-  /// a node of this rank and at least that for a ghost node, whose unknown belongs to another rank. Unknown
-  /// 3 * node + c is component c of the displacement, so a Vector made from partitioner() is indexed by
-  /// 3 * local node + c.
+  /// Every rank owns a contiguous range of nodes and some patches. A local node number is below
+  /// n_owned_nodes() for a node of this rank and at least that for a ghost node, whose unknown
+  /// belongs to another rank. Unknown 3 * node + c is component c of the displacement, so a Vector
+  /// made from partitioner() is indexed by 3 * local node + c.
   class Discretization
   {
   public:
@@ -87,7 +90,7 @@ namespace softcell
       return Vector(partitioner_);
     }
 
-    virtual Size         size() const      = 0;
+    virtual Size size() const              = 0;
     virtual unsigned int degree() const    = 0;
     virtual unsigned int n_patches() const = 0;
 
@@ -97,16 +100,18 @@ namespace softcell
     /// Reference positions of a patch's points, in the order of its weights.
     virtual void patch_points(unsigned int i, std::vector<Point> &points) const = 0;
 
-    /// The pieces of the region's boundary that lie in this rank's cells. Over all ranks each piece appears once.
+    /// The pieces of the region's boundary that lie in this rank's cells. Over all ranks each piece
+    /// appears once.
     virtual std::vector<SurfacePatch> surface_patches(const Region &region) const = 0;
 
-    /// The nodes (this rank's and ghosts) whose values alone determine the displacement on the region, or nothing
-    /// if the region does not coincide with faces of cells, so that displacements cannot be imposed strongly.
-    /// Collective: all ranks get nothing or all get their nodes.
+    /// The nodes (this rank's and ghosts) whose values alone determine the displacement on the
+    /// region, or nothing if the region does not coincide with faces of cells, so that
+    /// displacements cannot be imposed strongly. Collective: all ranks get nothing or all get their
+    /// nodes.
     virtual std::optional<std::vector<unsigned int>> nodes_on(const Region &region) const = 0;
 
-    /// The shapes at X from this rank's cells; beyond them, those of the nearest cell not farther than `reach`,
-    /// extended. Nothing if there is none.
+    /// The shapes at X from this rank's cells; beyond them, those of the nearest cell not farther
+    /// than `reach`, extended. Nothing if there is none.
     virtual std::optional<PointShapes> shapes_at(const Point &X, double reach) const = 0;
 
     /// Box around this rank's cells.
@@ -116,6 +121,6 @@ namespace softcell
 
   protected:
     std::shared_ptr<const Partitioner> partitioner_;
-    std::vector<Point>                 node_positions_;
+    std::vector<Point> node_positions_;
   };
 } // namespace softcell

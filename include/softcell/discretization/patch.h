@@ -11,8 +11,8 @@ namespace softcell
   /// Shape functions at the points of one or many congruent cells.
   struct ShapeTable
   {
-    unsigned int        n_points = 0;
-    unsigned int        n_nodes  = 0;
+    unsigned int n_points = 0;
+    unsigned int n_nodes  = 0;
     std::vector<double> values;    // (n_points, n_nodes). Units: 1
     std::vector<double> gradients; // (n_points, 3, n_nodes), with respect to X. Units: 1/m
 
@@ -34,15 +34,18 @@ namespace softcell
     }
   };
 
-  /// Integration data of one cell (or of one meshless integration element) in the reference configuration.
+  /// Integration data of one cell (or of one meshless integration element) in the reference
+  /// configuration.
   ///
-  /// A patch looks into storage that belongs to the discretization or to a PatchStorage; it is cheap to copy.
-  /// Hanging nodes do not appear: their shapes are added to those of the nodes that they hang on.
+  /// A patch looks into storage that belongs to the discretization or to a PatchStorage; it is
+  /// cheap to copy. Hanging nodes do not appear: their shapes are added to those of the nodes that
+  /// they hang on.
   struct Patch
   {
-    View<const unsigned int>  nodes;   // (n_nodes) local node numbers
-    View<const double>        weights; // (n_points) quadrature weight times det J times what is filled. Units: m^3
-    const ShapeTable         *shapes = nullptr;
+    View<const unsigned int> nodes; // (n_nodes) local node numbers
+    View<const double>
+      weights; // (n_points) quadrature weight times det J times what is filled. Units: m^3
+    const ShapeTable *shapes = nullptr;
     View<const unsigned char> labels; // (n_points) material labels, or a single one for all points
 
     unsigned int n_points() const
@@ -62,12 +65,12 @@ namespace softcell
   /// Shapes of a boundary piece that lies in one cell, and its points.
   struct SurfacePatch
   {
-    std::vector<unsigned int>  nodes;   // (n_nodes) local node numbers
-    std::vector<Point>         points;  // (n_points) in the reference configuration
-    std::vector<Direction>     normals; // (n_points) unit outward normals there
-    std::vector<double>        weights; // (n_points) Units: m^2
-    ShapeTable                 shapes;
-    std::vector<unsigned char> labels;        // (n_points) material labels
-    double                     cell_size = 0; // h of Nitsche's method. Units: m
+    std::vector<unsigned int> nodes; // (n_nodes) local node numbers
+    std::vector<Point> points;       // (n_points) in the reference configuration
+    std::vector<Direction> normals;  // (n_points) unit outward normals there
+    std::vector<double> weights;     // (n_points) Units: m^2
+    ShapeTable shapes;
+    std::vector<unsigned char> labels; // (n_points) material labels
+    double cell_size = 0;              // h of Nitsche's method. Units: m
   };
 } // namespace softcell

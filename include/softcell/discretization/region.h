@@ -9,9 +9,9 @@
 
 namespace softcell
 {
-  /// A part of the boundary, told by a condition on a boundary triangle's or face's centre (x, y, z), unit outward
-  /// normal (nx, ny, nz) and patch number: either an expression that is true there (muParser's syntax, true if
-  /// not 0) or `patch K` of the surface file.
+  /// A part of the boundary, told by a condition on a boundary triangle's or face's centre (x, y,
+  /// z), unit outward normal (nx, ny, nz) and patch number: either an expression that is true there
+  /// (muParser's syntax, true if not 0) or `patch K` of the surface file.
   class Region
   {
   public:
@@ -29,7 +29,7 @@ namespace softcell
 
   private:
     struct Condition;
-    std::string                name_;
+    std::string name_;
     std::unique_ptr<Condition> condition_;
   };
 } // namespace softcell

@@ -18,8 +18,8 @@ namespace softcell
 
   /// A closed, bounded set of points of space in its reference configuration. Lengths in m.
   ///
-  /// A body gives exact answers for what it is made of: triangles, voxels or a formula. All members are const
-  /// and may be called from several threads.
+  /// A body gives exact answers for what it is made of: triangles, voxels or a formula. All members
+  /// are const and may be called from several threads.
   class Body
   {
   public:
@@ -30,7 +30,8 @@ namespace softcell
 
     virtual bool contains(const Point &X) const = 0;
 
-    /// `inside` and `outside` are certain; `cut` may be said of a box that the boundary only touches.
+    /// `inside` and `outside` are certain; `cut` may be said of a box that the boundary only
+    /// touches.
     virtual Side classify(const Box &box) const = 0;
 
     /// Volume of what the body fills of the box. Units: m^3
@@ -48,7 +49,8 @@ namespace softcell
       return 1;
     }
 
-    /// Material label at a point of the body; of a point outside, the label of some near part of the body.
+    /// Material label at a point of the body; of a point outside, the label of some near part of
+    /// the body.
     virtual unsigned int label(const Point & /*X*/) const
     {
       return 0;

@@ -15,21 +15,23 @@ namespace softcell
   /// What the section Geometry of a parameter file says.
   struct GeometryParameters
   {
-    std::string               type   = "surface"; // one of the names registered in geometry.cc
-    std::string               file   = "";        // surface or image
-    double                    scale  = 1;         // metres per unit of the file
-    std::vector<unsigned int> labels = {};        // image: the labels that form the body; empty: all but 0
-    double                    radius = 0.05;      // cylinder, sphere, torus (of the tube), hexagonal prism (circumradius)
-    double                    ring_radius = 0.1;  // torus: from the axis to the middle of the tube
-    double                    length = 0.6;       // cylinder, hexagonal prism: along z
-    Point                     size   = Point(1, 1, 1); // box
+    std::string type                 = "surface"; // one of the names registered in geometry.cc
+    std::string file                 = "";        // surface or image
+    double scale                     = 1;         // metres per unit of the file
+    std::vector<unsigned int> labels = {}; // image: the labels that form the body; empty: all but 0
+    double radius = 0.05; // cylinder, sphere, torus (of the tube), hexagonal prism (circumradius)
+    double ring_radius = 0.1;            // torus: from the axis to the middle of the tube
+    double length      = 0.6;            // cylinder, hexagonal prism: along z
+    Point size         = Point(1, 1, 1); // box
 
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// Builds the body. Analytic bodies stand on z = 0 with their axis along z, the box with a corner at the origin.
+  /// Builds the body. Analytic bodies stand on z = 0 with their axis along z, the box with a corner
+  /// at the origin.
   /// @param remarks gets a sentence for everything that was repaired or assumed.
   /// @throws BadInput
-  std::unique_ptr<Body> make_body(const GeometryParameters &parameters, std::vector<std::string> &remarks);
+  std::unique_ptr<Body> make_body(const GeometryParameters &parameters,
+                                  std::vector<std::string> &remarks);
 } // namespace softcell

@@ -16,8 +16,8 @@ namespace softcell
   /// Points of one cell in the unit cube, their weights (m^3) and material labels.
   struct CutPoints
   {
-    std::vector<Point>         points;
-    std::vector<double>        weights;
+    std::vector<Point> points;
+    std::vector<double> weights;
     std::vector<unsigned char> labels; // one per point, or a single one for all
   };
 
@@ -25,15 +25,15 @@ namespace softcell
   struct CutParameters
   {
     unsigned int levels = 3; // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
-    double       alpha  = 0; // stiffness of what is outside relative to inside
+    double alpha        = 0; // stiffness of what is outside relative to inside
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
   /// Quadrature in cells that the body's boundary cuts.
   ///
-  /// A rule is given the cut cells one after the other and keeps of each what it needs, in as little memory as it
-  /// can, to give the points again whenever a tangent is assembled.
+  /// A rule is given the cut cells one after the other and keeps of each what it needs, in as
+  /// little memory as it can, to give the points again whenever a tangent is assembled.
   class CutRule
   {
   public:
@@ -43,21 +43,22 @@ namespace softcell
     /// Cells are numbered in the order in which they are added.
     virtual double add(const Box &cell) = 0;
 
-    /// True if the points are the cell's own Gauss points, in deal.II's order, whatever the cut: then all cells
-    /// share one table of shapes and differ only in their weights.
+    /// True if the points are the cell's own Gauss points, in deal.II's order, whatever the cut:
+    /// then all cells share one table of shapes and differ only in their weights.
     virtual bool has_cell_points() const = 0;
 
-    /// The points of cell number `index`. Reuses the memory of `result`. If has_cell_points(), only weights and
-    /// labels are filled. Points outside the body appear only if alpha > 0.
+    /// The points of cell number `index`. Reuses the memory of `result`. If has_cell_points(), only
+    /// weights and labels are filled. Points outside the body appear only if alpha > 0.
     virtual void points(unsigned int index, CutPoints &result) const = 0;
   };
 
-  /// The rules by the names that a parameter file gives them ("finite cell", "weighted cell", "sparse grid").
+  /// The rules by the names that a parameter file gives them ("finite cell", "weighted cell",
+  /// "sparse grid").
   std::vector<std::string> cut_rule_names();
 
   /// @param degree of the cell's shape functions: its own Gauss points are (degree + 1)^3.
-  std::unique_ptr<CutRule> make_cut_rule(const std::string   &name,
+  std::unique_ptr<CutRule> make_cut_rule(const std::string &name,
                                          const CutParameters &parameters,
-                                         unsigned int         degree,
-                                         const Body          &body);
+                                         unsigned int degree,
+                                         const Body &body);
 } // namespace softcell

@@ -26,8 +26,7 @@ namespace softcell
     FiniteCell(const CutParameters &parameters, unsigned int degree, const Body &body);
 
     double add(const Box &cell) override;
-    bool
-    has_cell_points() const override
+    bool has_cell_points() const override
     {
       return false;
     }
@@ -43,8 +42,7 @@ namespace softcell
     };
 
     void add_cut_leaf(const Box &leaf, LeafCode code, double &volume);
-    bool
-    is_inside(const std::size_t cut_leaf, const unsigned int point) const
+    bool is_inside(const std::size_t cut_leaf, const unsigned int point) const
     {
       return masks_[cut_leaf * mask_bytes_ + point / 8] >> point % 8 & 1;
     }

@@ -13,8 +13,7 @@ namespace softcell
   class LabelList
   {
   public:
-    void
-    add(const std::vector<unsigned char> &labels)
+    void add(const std::vector<unsigned char> &labels)
     {
       const bool uniform =
         std::all_of(labels.begin(), labels.end(),
@@ -24,8 +23,7 @@ namespace softcell
     }
 
     /// The labels of a cell's points, or the single one of all of them.
-    View<const unsigned char>
-    operator[](const unsigned int cell) const
+    View<const unsigned char> operator[](const unsigned int cell) const
     {
       return {labels_.data() + starts_[cell], starts_[cell + 1] - starts_[cell]};
     }

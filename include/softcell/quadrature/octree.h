@@ -10,8 +10,7 @@ namespace softcell
 {
   /// How a box lies to the body, but for a billionth of its size at its faces: a box whose face
   /// lies in the body's boundary is not cut, whatever the rounding of its coordinates.
-  inline Side
-  side_of(const Body &body, const Box &box)
+  inline Side side_of(const Body &body, const Box &box)
   {
     const auto &[lower, upper] = box.get_boundary_points();
     const Direction inset      = 1e-9 * (upper - lower);
@@ -28,12 +27,11 @@ namespace softcell
   /// Halves the box at most `levels` times where the body's boundary goes and calls leaf(Box, Side,
   /// LeafCode) for each leaf. Only leaves of the last level are cut.
   template <class Leaf>
-  void
-  visit_leaves(const Body &body,
-               const Box &box,
-               const unsigned int levels,
-               const Leaf &leaf,
-               const LeafCode code = 1)
+  void visit_leaves(const Body &body,
+                    const Box &box,
+                    const unsigned int levels,
+                    const Leaf &leaf,
+                    const LeafCode code = 1)
   {
     const Side side = side_of(body, box);
     if (side == Side::cut && levels > 0)

@@ -26,8 +26,7 @@ namespace softcell
     WeightedCell(const CutParameters &parameters, unsigned int degree, const Body &body);
 
     double add(const Box &cell) override;
-    bool
-    has_cell_points() const override
+    bool has_cell_points() const override
     {
       return true;
     }
