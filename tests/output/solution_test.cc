@@ -2,6 +2,7 @@
 #include "one_tetrahedron.h"
 
 #include <softcell/base/exceptions.h>
+#include <softcell/operators/elasticity.h>
 #include <softcell/output/solution.h>
 
 #include <gtest/gtest.h>
