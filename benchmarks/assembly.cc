@@ -14,7 +14,7 @@ namespace
 {
   using namespace softcell;
 
-  Vector bent(const Lattice &lattice)
+  Vector bent(const UnitCells &lattice)
   {
     Vector u = lattice.make_vector();
     for (unsigned int node = 0; node < lattice.node_positions().size(); ++node)
@@ -24,7 +24,7 @@ namespace
     return u;
   }
 
-  void report(benchmark::State &state, const Lattice &lattice, const unsigned int n_points)
+  void report(benchmark::State &state, const UnitCells &lattice, const unsigned int n_points)
   {
     const double n_cells       = lattice.n_patches();
     state.counters["cells/s"]  = {n_cells, benchmark::Counter::kIsIterationInvariantRate};
@@ -37,8 +37,8 @@ namespace
   {
     const unsigned int n        = state.range(0),
                        n_points = state.range(1) * state.range(1) * state.range(1);
-    Lattice lattice({{n, n, n}}, state.range(1), static_cast<LatticePatches>(state.range(2)));
-    for (Lattice::Cell &cell : lattice.cells)
+    UnitCells lattice({{n, n, n}}, state.range(1), static_cast<LatticePatches>(state.range(2)));
+    for (UnitCells::Cell &cell : lattice.cells)
       for (unsigned int q = 0; q < n_points; ++q)
         cell.weights[q] *= 0.1 + 0.9 * q / n_points;
     const Elasticity elasticity(lattice, {Material(model, 5000, 0.3)});
@@ -52,7 +52,7 @@ namespace
   void residual(benchmark::State &state, const char *model)
   {
     const unsigned int n = state.range(0);
-    const Lattice lattice({{n, n, n}}, 2);
+    const UnitCells lattice({{n, n, n}}, 2);
     const Elasticity elasticity(lattice, {Material(model, 5000, 0.3)});
     const Vector u = bent(lattice);
     Vector r       = lattice.make_vector();

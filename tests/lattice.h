@@ -16,14 +16,14 @@ namespace softcell
 {
   /// Nodes are numbered x fastest, z slowest; a rank owns its cells' nodes but those on top, which
   /// belong to the next rank that has cells.
-  class Lattice : public Discretization
+  class BoxOfCells : public Discretization
   {
   public:
     /// @param is_fitted false: no strong displacements, as if the cells were a background grid.
-    Lattice(const std::array<unsigned int, 3> &cells,
-            const Point &size,
-            const MPI_Comm communicator = MPI_COMM_SELF,
-            const bool is_fitted        = true)
+    BoxOfCells(const std::array<unsigned int, 3> &cells,
+               const Point &size,
+               const MPI_Comm communicator = MPI_COMM_SELF,
+               const bool is_fitted        = true)
         : cells_(cells), size_(size), is_fitted_(is_fitted)
     {
       const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator),

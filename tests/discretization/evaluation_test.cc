@@ -29,7 +29,7 @@ namespace softcell
   TEST(Evaluation, AnswersWhereverThePointLies)
   {
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const Lattice lattice({2, 3, 7}, Point(1, 2, 3), MPI_COMM_WORLD);
+    const BoxOfCells lattice({2, 3, 7}, Point(1, 2, 3), MPI_COMM_WORLD);
     const Vector u = nodal_values(lattice, field);
     std::vector<Point> points; // every rank asks for other points; the first ones lie between cells
     if (rank != 1)
@@ -47,7 +47,7 @@ namespace softcell
 
   TEST(Evaluation, ExtendsTheNearestCellWithinReach)
   {
-    const Lattice lattice({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells lattice({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Vector u = nodal_values(lattice, field);
     const std::vector<Point> points{Point(0.3, 0.4, 1.1), Point(-0.2, 0.5, 0.9), Point(0, 0, -0.3)};
     const PointValues near = evaluate(lattice, u, points, 0.25);

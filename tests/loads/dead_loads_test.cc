@@ -24,7 +24,7 @@ namespace softcell
 
   TEST(Weight, IsMassTimesGravity)
   {
-    const Lattice body({2, 3, 4}, Point(0.1, 0.2, 0.3), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 3, 4}, Point(0.1, 0.2, 0.3), MPI_COMM_WORLD);
     const Direction g({0, 1, -9.81});
     const Weight weight(body, g, {1060.});
     EXPECT_EQ(weight.region(), "gravity");
@@ -38,7 +38,7 @@ namespace softcell
 
   TEST(Traction, HasTheResultantAndMomentOfItsField)
   {
-    const Lattice body({2, 3, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 3, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Region top("top", "nz > 0.5");
     const Traction uniform(body, body.surface_patches(top), Expression("1, -30, 2", 3, ""), "top");
     const Vector u = body.make_vector();

@@ -17,7 +17,7 @@ namespace softcell
 
   TEST(ImposedDisplacement, TellsWhatIsMissing)
   {
-    const Lattice body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
     ImposedDisplacement imposed(body);
     imposed.add("bottom", *body.nodes_on(bottom), Expression("0.5*y, free, 2*t", 3, ""));
     Vector u       = nodal_values(body, [](const Point &) { return Direction({0.1, 0.1, 0.1}); });
@@ -34,7 +34,7 @@ namespace softcell
 
   TEST(ImposedDisplacement, SumsReactionsByRegion)
   {
-    const Lattice body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
     ImposedDisplacement imposed(body);
     imposed.add("bottom", *body.nodes_on(bottom), Expression("0, 0, 0", 3, ""));
     imposed.add("side", *body.nodes_on(side), Expression("0, free, 0", 3, ""));
@@ -47,7 +47,7 @@ namespace softcell
 
   TEST(ImposedDisplacement, RefusesContradictions)
   {
-    const Lattice body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
     ImposedDisplacement imposed(body);
     imposed.add("bottom", *body.nodes_on(bottom), Expression("0, 0, 0", 3, "Loads/bottom"));
     EXPECT_NO_THROW(

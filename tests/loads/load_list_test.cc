@@ -31,13 +31,13 @@ namespace softcell
         regions.emplace_back("nothing", "z > 7");
       }
 
-      Loads loads(const Lattice &body, const Entries &entries) const
+      Loads loads(const BoxOfCells &body, const Entries &entries) const
       {
         return make_loads(parameters, parse_loads(entries, regions), regions, body, surface,
                           materials);
       }
 
-      std::string complaint(const Lattice &body, const Entries &entries) const
+      std::string complaint(const BoxOfCells &body, const Entries &entries) const
       {
         try
         {
@@ -56,9 +56,9 @@ namespace softcell
       return text.find(part) != std::string::npos;
     }
 
-    Lattice unit_cube(const bool is_fitted)
+    BoxOfCells unit_cube(const bool is_fitted)
     {
-      return Lattice({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD, is_fitted);
+      return BoxOfCells({2, 2, 4}, Point(1, 1, 1), MPI_COMM_WORLD, is_fitted);
     }
   } // namespace
 
@@ -80,7 +80,7 @@ namespace softcell
   {
     Problem problem;
     problem.parameters.gravity = Direction({0, 0, -10});
-    const Lattice body         = unit_cube(true);
+    const BoxOfCells body      = unit_cube(true);
     const Loads loads = problem.loads(body, {{"base", "clamp"}, {"top", "traction 0, -30, 0"}});
     EXPECT_EQ(loads.free_motions, "");
     EXPECT_EQ(loads.imposed.regions(), std::vector<std::string>{"base"});
@@ -93,7 +93,7 @@ namespace softcell
   TEST(LoadList, ChoosesHowToImposeADisplacement)
   {
     Problem problem;
-    const Lattice grid = unit_cube(false);
+    const BoxOfCells grid = unit_cube(false);
     const Entries entries{{"base", "displacement 0, 0, 0.1"}};
     const Vector u = grid.make_vector();
 
@@ -117,11 +117,11 @@ namespace softcell
   TEST(LoadList, KnowsWhatHoldsTheBody)
   {
     const Problem problem;
-    const Lattice body = unit_cube(true), grid = unit_cube(false);
+    const BoxOfCells body = unit_cube(true), grid = unit_cube(false);
     EXPECT_TRUE(
       says(problem.loads(body, {{"top", "traction 0, 0, 1"}}).free_motions, "nothing holds"));
     EXPECT_EQ(problem.loads(grid, {{"top", "springs 1e6"}}).free_motions, "");
-    for (const Lattice *any : {&body, &grid})
+    for (const BoxOfCells *any : {&body, &grid})
       EXPECT_TRUE(says(problem.loads(*any, {{"base", "displacement free, free, 0"}}).free_motions,
                        "translation along x and y and rotation about z is free"));
   }
@@ -129,8 +129,8 @@ namespace softcell
   TEST(LoadList, NamesWhatIsWrong)
   {
     const Problem problem;
-    const Lattice body = unit_cube(true);
-    const auto says_of = [&](const std::string &region, const std::string &text) {
+    const BoxOfCells body = unit_cube(true);
+    const auto says_of    = [&](const std::string &region, const std::string &text) {
       return problem.complaint(body, {{region, text}});
     };
     EXPECT_TRUE(says(says_of("base", "clmp"), "Loads/base = 'clmp'"));

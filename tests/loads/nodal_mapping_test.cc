@@ -17,7 +17,7 @@ namespace softcell
   TEST(NodalMapping, KeepsResultantAndMoment)
   {
     const Surface surface = box_surface(Point(1, 1, 1), 3);
-    const Lattice grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
+    const BoxOfCells grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
     const Region side("side", "nx > 0.5");
     const auto patches = nodal_surface_patches(grid, surface, side, 0.1);
     EXPECT_EQ(dealii::Utilities::MPI::sum(unsigned(patches.size()), MPI_COMM_WORLD), 16u);
@@ -38,7 +38,7 @@ namespace softcell
   TEST(NodalMapping, SaysWhereTheGridDoesNotReach)
   {
     const Surface surface = box_surface(Point(1, 1, 2), 2);
-    const Lattice grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
+    const BoxOfCells grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
     EXPECT_THROW(nodal_surface_patches(grid, surface, Region("top", "nz > 0.5"), 0.1), BadInput);
     EXPECT_NO_THROW(nodal_surface_patches(grid, surface, Region("low", "nz < -0.5"), 0.1));
   }

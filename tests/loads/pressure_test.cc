@@ -11,7 +11,7 @@ namespace softcell
 {
   TEST(Pressure, OfAClosedSurfaceHasNoResultant)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Region all("all", "1");
     const Pressure pressure(body, body.surface_patches(all), Expression("100", 1, ""), "all");
     EXPECT_LT(pressure.total_force(some_displacement(body), 1).norm(), 1e-11);
@@ -21,7 +21,7 @@ namespace softcell
   // stretched to (1.5, 2) and bulging inside its rim, keeps the area of the flat patch.
   TEST(Pressure, PushesOnTheDeformedArea)
   {
-    const Lattice body({4, 4, 2}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({4, 4, 2}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Region top("top", "nz > 0.5");
     const Pressure pressure(body, body.surface_patches(top), Expression("10", 1, ""), "top");
     const Vector u = nodal_values(body, [](const Point &X) {
@@ -40,7 +40,7 @@ namespace softcell
 
   TEST(Pressure, TangentIsTheDerivativeOnAClosedSurface)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Region all("all", "1");
     const Pressure pressure(body, body.surface_patches(all), Expression("100", 1, ""), "all");
     EXPECT_LT(tangent_error(body, pressure, some_displacement(body), some_direction(body), 0.7),
@@ -49,7 +49,7 @@ namespace softcell
 
   TEST(Pressure, TangentIsTheDerivativeWhereTheRimIsHeld)
   {
-    const Lattice body({4, 4, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({4, 4, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Region top("top", "nz > 0.5");
     const Pressure pressure(body, body.surface_patches(top), Expression("100", 1, ""), "top");
     const Vector v = nodal_values(body, [](const Point &X) {

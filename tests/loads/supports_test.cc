@@ -14,7 +14,7 @@ namespace softcell
   {
     const Region bottom("bottom", "nz < -0.5"), all("all", "1");
 
-    std::unique_ptr<Nitsche> nitsche(const Lattice &body,
+    std::unique_ptr<Nitsche> nitsche(const BoxOfCells &body,
                                      const std::vector<Material> &materials,
                                      const Region &region,
                                      const std::string &displacement)
@@ -26,7 +26,7 @@ namespace softcell
 
     /// Adds int P : grad N, the internal force.
     void
-    add_internal_force(const Lattice &body, const Material &material, const Vector &u, Vector &r)
+    add_internal_force(const BoxOfCells &body, const Material &material, const Vector &u, Vector &r)
     {
       PatchStorage storage;
       for (unsigned int p = 0; p < body.n_patches(); ++p)
@@ -54,7 +54,7 @@ namespace softcell
 
   TEST(Penalty, PullsByStiffnessTimesMisfit)
   {
-    const Lattice body({2, 2, 3}, Point(2, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(2, 1, 1), MPI_COMM_WORLD);
     const Penalty penalty(body, body.surface_patches(bottom), Expression("0.1, free, 0", 3, ""),
                           Expression("1000*x", 1, ""), "bottom");
     const Vector u = nodal_values(body, [](const Point &) { return Direction({0.3, 5, 0.2}); });
@@ -68,7 +68,7 @@ namespace softcell
 
   TEST(Nitsche, ResidualIsTheDerivativeOfItsPotential)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     for (const std::string model : {"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"})
     {
       const std::vector<Material> materials{Material(model, 5000, 0.3)};
@@ -81,7 +81,7 @@ namespace softcell
 
   TEST(Nitsche, TangentIsTheDerivativeForTheLinearLaw)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const std::vector<Material> materials{Material("linear", 5000, 0.3)};
     const auto support = nitsche(body, materials, bottom, "0.1*y, free, 0.02");
     EXPECT_LT(tangent_error(body, *support, some_displacement(body), some_direction(body), 0.8),
@@ -90,7 +90,7 @@ namespace softcell
 
   TEST(Nitsche, TangentIsTheDerivativeWhereNothingIsMisplaced)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const std::vector<Material> materials{Material("Neo-Hookean", 5000, 0.3)};
     const auto support = nitsche(body, materials, all, "0.1*y, 0.2*z - 0.1*x, 0.3*z");
     const Vector u     = nodal_values(body, [](const Point &X) {
@@ -102,7 +102,7 @@ namespace softcell
   // The exact solution satisfies the discrete equations: a linear displacement imposed all around.
   TEST(Nitsche, PassesThePatchTest)
   {
-    const Lattice body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({2, 2, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     for (const std::string model : {"Neo-Hookean", "linear"})
     {
       const std::vector<Material> materials{Material(model, 5000, 0.3)};
@@ -121,7 +121,7 @@ namespace softcell
 
   TEST(Nitsche, ReportsAnInvertedSurfaceOnAllRanks)
   {
-    const Lattice body({1, 1, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
+    const BoxOfCells body({1, 1, 3}, Point(1, 1, 1), MPI_COMM_WORLD);
     const std::vector<Material> materials{Material("Neo-Hookean", 5000, 0.3)};
     const auto support = nitsche(body, materials, bottom, "0, 0, 0");
     const Vector u     = nodal_values(body, [](const Point &X) {

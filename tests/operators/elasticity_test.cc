@@ -22,7 +22,7 @@ namespace
   const std::vector<std::string> models{"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"};
   constexpr double E = 10, nu = 0.25, mu = 4, lambda = 4;
 
-  Vector displacement(const Lattice &lattice, const std::function<Point(const Point &)> &deformed)
+  Vector displacement(const UnitCells &lattice, const std::function<Point(const Point &)> &deformed)
   {
     Vector u = lattice.make_vector();
     for (unsigned int node = 0; node < lattice.node_positions().size(); ++node)
@@ -49,7 +49,7 @@ namespace
   }
 
   dealii::FullMatrix<double>
-  tangent(const Lattice &lattice, const Elasticity &elasticity, const Vector &u)
+  tangent(const UnitCells &lattice, const Elasticity &elasticity, const Vector &u)
   {
     BlockMatrix K(lattice.partitioner(), elasticity.couplings());
     elasticity.add_tangent(u, K);
@@ -69,7 +69,7 @@ namespace
 
   TEST(Elasticity, ForceAndTangentAreDerivatives)
   {
-    const Lattice lattice({{2, 1, 1}}, 2);
+    const UnitCells lattice({{2, 1, 1}}, 2);
     const double h = 1e-5;
     for (const std::string &model : models)
     {
@@ -100,7 +100,7 @@ namespace
            {{1, 1, 1}}, {{2, 1, 1}}, {{2, 2, 1}}, {{4, 2, 2}}})
       for (const std::string &model : models)
       {
-        const Lattice cells(n, 3), merged(n, 3, LatticePatches::merged);
+        const UnitCells cells(n, 3), merged(n, 3, LatticePatches::merged);
         const Elasticity by_cells(cells, {Material(model, E, nu)});
         const Elasticity at_once(merged, {Material(model, E, nu)});
         const Vector u = displacement(cells, bent);
@@ -117,7 +117,7 @@ namespace
 
   TEST(Elasticity, ARotatedBodyIsFreeOfForce)
   {
-    const Lattice lattice({{2, 2, 2}}, 2);
+    const UnitCells lattice({{2, 2, 2}}, 2);
     const Vector u = displacement(lattice, [](const Point &X) {
       return Point(0.6 * X[0] - 0.8 * X[1], X[2] + 3, -0.8 * X[0] - 0.6 * X[1]);
     });
@@ -135,7 +135,7 @@ namespace
   TEST(Elasticity, UniformStretchPullsWithStressTimesArea)
   {
     const double k = 1.5;
-    const Lattice lattice({{3, 2, 2}}, 2);
+    const UnitCells lattice({{3, 2, 2}}, 2);
     const Elasticity elasticity(lattice, {Material("Neo-Hookean", E, nu)});
     const Vector u =
       displacement(lattice, [&](const Point &X) { return Point(k * X[0], X[1], X[2]); });
@@ -163,7 +163,7 @@ namespace
 
   TEST(Elasticity, EachPointFollowsTheMaterialOfItsLabel)
   {
-    Lattice lattice({{2, 1, 1}}, 2);
+    UnitCells lattice({{2, 1, 1}}, 2);
     // The second cell's lower half is of the stiff material, twice with the points in another
     // order.
     lattice.cells[1].labels = {1, 1, 1, 1, 0, 0, 0, 0};
@@ -176,7 +176,7 @@ namespace
 
   TEST(Elasticity, AnInvertedPointIsReportedUnlessItHasNoWeight)
   {
-    Lattice lattice({{2, 1, 1}}, 2);
+    UnitCells lattice({{2, 1, 1}}, 2);
     const Vector inverted = displacement(
       lattice, [](const Point &X) { return Point(X[0] == 2 ? 0.5 : X[0], X[1], X[2]); });
     for (const std::string model : {"Neo-Hookean", "Saint-Venant-Kirchhoff"})

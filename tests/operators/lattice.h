@@ -19,12 +19,12 @@ namespace softcell
   };
 
   /// Cubes of 1 m on this rank alone, with Gauss points. Only what the operators ask for is there.
-  class Lattice : public Discretization
+  class UnitCells : public Discretization
   {
   public:
-    Lattice(const std::array<unsigned int, 3> &n_cells,
-            const unsigned int n_gauss,
-            const LatticePatches kind = LatticePatches::congruent)
+    UnitCells(const std::array<unsigned int, 3> &n_cells,
+              const unsigned int n_gauss,
+              const LatticePatches kind = LatticePatches::congruent)
     {
       const std::array<unsigned int, 3> n_nodes{{n_cells[0] + 1, n_cells[1] + 1, n_cells[2] + 1}};
       for (unsigned int k = 0; k < n_nodes[2]; ++k)

@@ -22,7 +22,7 @@ namespace softcell
   TEST(Difference, HasTheNormsOfKnownFields)
   {
     const double e = 0.01;
-    const Lattice coarse({2, 1, 4}, Point(1, 1, 1), MPI_COMM_WORLD),
+    const BoxOfCells coarse({2, 1, 4}, Point(1, 1, 1), MPI_COMM_WORLD),
       fine({3, 4, 5}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Vector u_fine = nodal_values(fine, reference);
     const Vector u      = nodal_values(coarse, [&](const Point &X) {
@@ -36,7 +36,7 @@ namespace softcell
 
   TEST(Difference, LeavesOutWhatIsBeyondReach)
   {
-    const Lattice half({1, 1, 3}, Point(1, 1, 0.5), MPI_COMM_WORLD),
+    const BoxOfCells half({1, 1, 3}, Point(1, 1, 0.5), MPI_COMM_WORLD),
       whole({1, 1, 4}, Point(1, 1, 1), MPI_COMM_WORLD);
     const Vector u_whole = nodal_values(whole, reference), u = nodal_values(half, reference);
     const Difference d = difference(half, u, whole, u_whole, 0);
