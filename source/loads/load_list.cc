@@ -114,8 +114,8 @@ namespace softcell
     prm.add_parameter("Imposed displacement", imposition,
                       "How displacements are imposed: on the unknowns of nodes (strong, where the "
                       "region coincides with faces of cells), by penalty or by Nitsche's method; "
-                      "automatic is strong where that is possible and Nitsche elsewhere (penalty "
-                      "if the surface integration is nodal).",
+                      "automatic is strong where that is possible and penalty elsewhere. Nitsche is "
+                      "consistent, but not stable where the surface leaves slivers of cells.",
                       Patterns::Selection("automatic|strong|penalty|Nitsche"));
     prm.add_parameter("Penalty", penalty,
                       "Units: Pa/m (N/m if the surface integration is nodal). Stiffness by which "
@@ -242,12 +242,12 @@ namespace softcell
             throw BadInput("Loads/Imposed displacement = strong cannot be had on region '" +
                            load.region +
                            "', which does not coincide with faces of cells; choose "
-                           "automatic, Nitsche or penalty.");
+                           "automatic, penalty or Nitsche.");
         }
         auto patches = surface_patches(region);
         check_numbers(displacement, patches);
         hold(patches, displacement);
-        if (how == "penalty" || (how == "automatic" && is_nodal()))
+        if (how == "penalty" || how == "automatic")
           add_penalty(std::move(patches), std::move(displacement), load.region);
         else if (is_nodal())
           throw BadInput("Loads/Surface integration = nodal has no Nitsche's method; choose "

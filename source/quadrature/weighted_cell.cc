@@ -4,6 +4,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+
 namespace softcell
 {
   WeightedCell::WeightedCell(const CutParameters &parameters,
@@ -28,28 +30,41 @@ namespace softcell
   double WeightedCell::add(const Box &cell)
   {
     const double cell_volume = cell.volume();
-    double volume            = 0;
-
-    if (parameters_.levels == 0 && body_.filled_volume(cell) > 1e-9 * cell_volume)
-      volume = cell_volume;
+    std::vector<double> fractions(gauss_.size(), 1.);
     std::vector<unsigned char> labels;
+    double volume = 0;
     for (unsigned int i = 0; i < gauss_.size(); ++i)
     {
       const Point X = cell.unit_to_real(gauss_.point(i));
-      double factor = 1;
       labels.push_back(body_.label(X));
       if (parameters_.levels > 0)
       {
         const auto &[lower, upper] = parts_[i].get_boundary_points();
         const Filled v = filled(Box({cell.unit_to_real(lower), cell.unit_to_real(upper)}), X);
-        factor         = v.fraction + parameters_.alpha * (1 - v.fraction);
+        fractions[i]   = v.fraction;
         labels.back()  = v.label;
         volume += v.fraction * gauss_.weight(i) * cell_volume;
       }
-      weights_.push_back(factor * gauss_.weight(i) * cell_volume);
     }
+    if (parameters_.levels == 0 && body_.filled_volume(cell) > 1e-9 * cell_volume)
+      volume = cell_volume;
+
+    if (is_mechanism(fractions))
+      for (double &v : fractions)
+        v += spread * (volume / cell_volume - v);
+    for (unsigned int i = 0; i < gauss_.size(); ++i)
+      weights_.push_back((fractions[i] + parameters_.alpha * (1 - fractions[i])) *
+                         gauss_.weight(i) * cell_volume);
     labels_.add(labels);
     return volume;
+  }
+
+  bool WeightedCell::is_mechanism(const std::vector<double> &fractions)
+  {
+    const double largest        = *std::max_element(fractions.begin(), fractions.end());
+    const std::size_t n_weighty = std::count_if(
+      fractions.begin(), fractions.end(), [&](const double v) { return v > spread * largest; });
+    return n_weighty < fractions.size() / 2;
   }
 
   WeightedCell::Filled WeightedCell::filled(const Box &part, const Point &gauss_point) const

@@ -98,7 +98,7 @@ namespace softcell
     const Vector u = grid.make_vector();
 
     const Loads automatic = problem.loads(grid, entries);
-    EXPECT_TRUE(dynamic_cast<const Nitsche *>(automatic.forces.at(0).get()));
+    EXPECT_TRUE(dynamic_cast<const Penalty *>(automatic.forces.at(0).get()));
     EXPECT_EQ(automatic.free_motions, "");
 
     problem.parameters.imposition = "strong";

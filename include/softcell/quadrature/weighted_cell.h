@@ -18,7 +18,14 @@ namespace softcell
   /// counts, so that the volume of a cell is at degree 1 that of FiniteCell. With alpha the factor
   /// is v + alpha (1 - v), and without it a weight may be 0. A point takes the label of most of
   /// what fills its part. With 0 levels all that holds some of the body counts as full: the sparse
-  /// grid. Source: Brunet sec. 4.5, eq. 4.12-4.13 with v as a fraction, and p. 110 on the sparse
+  /// grid.
+  ///
+  /// A cell in which less than half of the points have a weight worth the name is a mechanism: the
+  /// nodes that it shares with no other cell have motions without strain at its points, which its
+  /// own weight sets going. There a tenth of the filled volume is spread evenly over all points,
+  /// which leaves the cell's volume as it is. (Brunet's rule has no such spreading.)
+  ///
+  /// Source: Brunet sec. 4.5, eq. 4.12-4.13 with v as a fraction, and p. 110 on the sparse
   /// grid.
   class WeightedCell : public CutRule
   {
@@ -40,6 +47,10 @@ namespace softcell
       unsigned char label;
     };
     Filled filled(const Box &part, const Point &gauss_point) const;
+    /// Do less than half of the parts hold more than `spread` of what the fullest one holds?
+    static bool is_mechanism(const std::vector<double> &fractions);
+
+    static constexpr double spread = 0.1; // part of a mechanism's volume that goes to all points
 
     const Body &body_;
     const CutParameters parameters_;
