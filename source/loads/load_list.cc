@@ -111,12 +111,13 @@ namespace softcell
     prm.add_parameter("Gravity", gravity,
                       "Units: m/s^2. Three numbers, e.g. 0, 0, -9.81; with the material's density "
                       "it gives the weight.");
-    prm.add_parameter("Imposed displacement", imposition,
-                      "How displacements are imposed: on the unknowns of nodes (strong, where the "
-                      "region coincides with faces of cells), by penalty or by Nitsche's method; "
-                      "automatic is strong where that is possible and penalty elsewhere. Nitsche is "
-                      "consistent, but not stable where the surface leaves slivers of cells.",
-                      Patterns::Selection("automatic|strong|penalty|Nitsche"));
+    prm.add_parameter(
+      "Imposed displacement", imposition,
+      "How displacements are imposed: on the unknowns of nodes (strong, where the "
+      "region coincides with faces of cells), by penalty or by Nitsche's method; "
+      "automatic is strong where that is possible and penalty elsewhere. Nitsche is "
+      "consistent, but not stable where the surface leaves slivers of cells.",
+      Patterns::Selection("automatic|strong|penalty|Nitsche"));
     prm.add_parameter("Penalty", penalty,
                       "Units: Pa/m (N/m if the surface integration is nodal). Stiffness by which "
                       "penalty holds the surface; an expression of x, y, z and t, e.g. 100 * "

@@ -181,7 +181,9 @@ TEST(Simulation, supports_bear_the_loads)
       const ResultsRow row    = solve(p).row;
       const Direction applied = vector_in(row, "top_f") + vector_in(row, "gravity_f");
       EXPECT_NEAR(row.number("gravity_fz"), -98.1 * row.number("volume"), 1e-9);
-      EXPECT_NEAR(row.number("top_fy"), -5 * M_PI / 4, 5e-3);
+      // chords of a quarter cut off (0.25 / r)^2 / 6 of the disc
+      const double lost = std::string(method.name) == "tetrahedra" ? 0.25 / 6 : 1e-3;
+      EXPECT_NEAR(row.number("top_fy"), -5 * M_PI / 4, 5 * M_PI / 4 * lost);
       EXPECT_LT((vector_in(row, "base_f") + applied).norm(), 1e-8 * applied.norm());
     }
 }
