@@ -525,16 +525,25 @@ namespace softcell
     namespace index = boost::geometry::index;
     std::optional<std::pair<Point, unsigned int>> best;
     double distance = reach;
-    for (auto it = data_->tree.qbegin(index::nearest(X, std::max(1u, n_patches())));
-         it != data_->tree.qend() && !(best && distance == 0); ++it)
+    // Ever more boxes around X, until the next one is farther than the cell that was found.
+    double next_box = 0;
+    for (unsigned int n = 8; next_box <= distance && !(best && distance == 0); n *= 8)
     {
-      if (boost::geometry::distance(X, it->first) > distance)
-        break; // the boxes come in the order of their distances
-      const auto [xi, outside] = data_->locate(it->second, X);
-      if (outside <= distance)
+      std::vector<std::pair<Box, unsigned int>> boxes;
+      data_->tree.query(index::nearest(X, n), std::back_inserter(boxes));
+      next_box = boxes.size() < n ? std::numeric_limits<double>::infinity() : 0;
+      for (const auto &[box, cell] : boxes)
       {
-        best     = {xi, it->second};
-        distance = outside;
+        const double box_distance = boost::geometry::distance(X, box);
+        next_box                  = std::max(next_box, box_distance);
+        if (box_distance > distance)
+          continue;
+        const auto [xi, outside] = data_->locate(cell, X);
+        if (outside <= distance)
+        {
+          best     = {xi, cell};
+          distance = outside;
+        }
       }
     }
     if (!best)
