@@ -9,6 +9,7 @@
 #include <softcell/output/checkpoint.h>
 #include <softcell/output/solution.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -115,11 +116,31 @@ namespace softcell
     if (!loads_->free_motions.empty())
       throw BadInput("Loads: " + loads_->free_motions);
     displacement_ = discretization_->make_vector();
-    model_        = std::make_unique<Model>(*discretization_, materials_, *loads_,
+    check_probes();
+    model_ = std::make_unique<Model>(*discretization_, materials_, *loads_,
                                      parameters.linear_solver, timers_);
   }
 
   Simulation::~Simulation() = default;
+
+  void Simulation::check_probes() const
+  {
+    const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const std::vector<double> distances =
+      evaluate(*discretization_, displacement_, is_root ? probes_ : std::vector<Point>(), reach())
+        .distances;
+    const auto is_far        = [](const double distance) { return std::isinf(distance); };
+    const unsigned int first = dealii::Utilities::MPI::broadcast(
+      MPI_COMM_WORLD, std::find_if(distances.begin(), distances.end(), is_far) - distances.begin());
+    if (first == probes_.size())
+      return;
+    const auto [lower, upper] = body_.bounding_box().get_boundary_points();
+    std::ostringstream text;
+    text << "Probes/" << parameters_.probes[first].first << " = '"
+         << parameters_.probes[first].second << "' is not in the body, which lies between ("
+         << lower << ") and (" << upper << "); lengths are in m.";
+    throw BadInput(text.str());
+  }
 
   bool Simulation::solve()
   {

@@ -92,6 +92,8 @@ BAD_INPUTS = [
     ("free to move", ["Loads/base = traction 0, 30, 0"], None, ["free"]),
     ("probe that is no point", ["Probes/tip = 0, 1"], None, ["tip", "0, 1"]),
     ("probe outside the body", ["Probes/tip = 9, 9, 9"], None, ["tip", "9"]),
+    ("grid too coarse", ["Discretization/Cells = 1", "Discretization/Smallest volume fraction = 0.9"], None,
+     ["Discretization/Cells = 1", "coarse"]),
     ("material of no label", [], "@BAR@subsection Material 9\n  set Density = 1\nend\n", ["Material 9"]),
     ("more memory than there is", ["Discretization/Cells = 5000"], None, ["Cells", "memory"]),
 ]

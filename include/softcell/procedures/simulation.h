@@ -55,6 +55,9 @@ namespace softcell
     void write(const std::filesystem::path &folder) const;
 
   private:
+    /// @throws BadInput if a probe is beyond reach().
+    void check_probes() const;
+
     /// Nominal edge of a cell, by which rates are observed. Units: m
     double cell_size() const;
 
