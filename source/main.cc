@@ -9,6 +9,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <omp.h>
+
+#include <cstdlib>
 #include <iostream>
 
 namespace
@@ -103,6 +106,9 @@ namespace
 int main(int argc, char **argv)
 {
   dealii::deal_II_exceptions::disable_abort_on_exception();
+  // MUMPS would have as many threads as there are cores in every rank.
+  if (std::getenv("OMP_NUM_THREADS") == nullptr)
+    omp_set_num_threads(1);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   try
