@@ -3,9 +3,12 @@
 
 #include <softcell/base/exceptions.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 namespace softcell
@@ -24,5 +27,31 @@ namespace softcell
       throw BadInput("'" + file + "' cannot be written (" + reason +
                      "); give a folder with room and permission by --output DIR.");
     }
+  }
+
+  void make_folder(const std::string &folder)
+  {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw BadInput("The folder '" + folder + "' cannot be made (" + error.message() +
+                     "); give another one by --output DIR.");
+  }
+
+  void on_root(MPI_Comm communicator, const std::function<void()> &write)
+  {
+    std::string failure;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+      {
+        write();
+      }
+      catch (const BadInput &error)
+      {
+        failure = error.what();
+      }
+    failure = dealii::Utilities::MPI::broadcast(communicator, failure);
+    if (!failure.empty())
+      throw BadInput(failure);
   }
 } // namespace softcell

@@ -4,6 +4,7 @@
 #include <softcell/procedures/simulation.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 #include <softcell/discretization/evaluation.h>
 #include <softcell/discretization/methods.h>
 #include <softcell/output/checkpoint.h>
@@ -223,7 +224,7 @@ namespace softcell
     const DiscretizationParameters &parameters = parameters_.discretization;
     if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
       return parameters.mesh.size;
-    if (has_cut_levels(parameters.method) && parameters.grid.cell_size > 0)
+    if (parameters.method != "tetrahedra" && parameters.grid.cell_size > 0)
       return parameters.grid.cell_size;
     const Box box = body_.bounding_box();
     return std::min({box.side_length(0), box.side_length(1), box.side_length(2)}) /
@@ -234,9 +235,7 @@ namespace softcell
   {
     const Timers::Scope scope(timers_, "output");
     const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    if (is_root)
-      std::filesystem::create_directories(folder);
-    MPI_Barrier(MPI_COMM_WORLD);
+    on_root(MPI_COMM_WORLD, [&] { make_folder(folder.string()); });
     if (parameters_.output.volume)
       SolutionWriter(*discretization_, (folder / "solution").string())
         .write(history_.reached, displacement_, model_->elasticity().averages(displacement_));
@@ -245,9 +244,10 @@ namespace softcell
       const PointValues values =
         evaluate(*discretization_, displacement_,
                  is_root ? body_.surface().vertices() : std::vector<Point>(), reach());
-      if (is_root)
+      on_root(MPI_COMM_WORLD, [&] {
         write_deformed_surface((folder / "surface.vtp").string(), body_.surface(),
                                values.displacements);
+      });
     }
     if (parameters_.output.checkpoint)
       write_checkpoint((folder / "checkpoint.h5").string(), *discretization_, displacement_,

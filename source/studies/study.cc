@@ -4,6 +4,7 @@
 #include <softcell/studies/study.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 #include <softcell/output/results.h>
 #include <softcell/output/run_record.h>
 #include <softcell/procedures/simulation.h>
@@ -94,6 +95,8 @@ namespace softcell
             set("Method", item.empty() ? "" : method, "");
             set("Degree", degree, " p" + degree);
             set("Cells", cells, " n" + cells);
+            if (method == "tetrahedra" && !cells.empty())
+              set("Mesh size", "0", ""); // it would win over Cells
             set("Cut levels", level, " l" + level);
             std::replace(one.name.begin(), one.name.end(), ' ', '_');
             cases.push_back(one);
@@ -135,6 +138,13 @@ namespace softcell
     record.parameters = parameters.entries;
 
     Timers timers;
+    const auto write_record = [&] {
+      record.wall_s = timers.total();
+      on_root(MPI_COMM_WORLD, [&] {
+        make_folder(folder.string());
+        write_run_record((folder / "run.json").string(), record);
+      });
+    };
     console.say("Body: " + parameters.geometry.type + ' ' + parameters.geometry.file);
     const std::unique_ptr<Body> body = make_body(parameters.geometry, record.remarks);
     for (const std::string &remark : record.remarks)
@@ -148,7 +158,13 @@ namespace softcell
         read_parameters(file, with(list(parameters.study.reference, ';')));
       reference = std::make_unique<Simulation>("reference", settings_of_reference, *body, console);
       if (!is_check && !reference->solve())
-        throw NotConverged("The reference did not converge: " + reference->reason() + ".");
+      {
+        record.status  = "not converged";
+        record.message = "The reference did not converge: " + reference->reason() + ".";
+        write_record();
+        reference->write(folder / "reference");
+        throw NotConverged(record.message);
+      }
     }
 
     std::unique_ptr<ResultsTable> table;
@@ -164,11 +180,7 @@ namespace softcell
       if (!table)
       {
         // Only now: a mistake that shows while the first case is built leaves no folder behind.
-        if (is_root)
-        {
-          std::filesystem::create_directories(folder);
-          write_run_record((folder / "run.json").string(), record);
-        }
+        write_record();
         table = std::make_unique<ResultsTable>(is_root ? (folder / "results.csv").string() : "");
       }
       if (!simulation.solve())
@@ -179,7 +191,7 @@ namespace softcell
       ResultsRow row = simulation.row();
       if (reference)
         add_errors(*reference, simulation, last_of_series, row);
-      table->add(row);
+      on_root(MPI_COMM_WORLD, [&] { table->add(row); });
       simulation.write(cases.size() == 1 ? folder : folder / cases[i].name);
       if (i + 1 < cases.size())
       {
@@ -195,9 +207,7 @@ namespace softcell
 
     record.status  = n_failed == 0 ? "done" : "not converged";
     record.message = n_failed == 0 ? "" : std::to_string(n_failed) + " cases did not converge";
-    record.wall_s  = timers.total();
-    if (is_root)
-      write_run_record((folder / "run.json").string(), record);
+    write_record();
     console.say("Results: " + (folder / "results.csv").string());
     return n_failed == 0 ? 0 : 2;
   }

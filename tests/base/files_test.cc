@@ -37,3 +37,14 @@ TEST(Files, NamesWhatCannotBeWritten)
     EXPECT_NE(std::string(error.what()).find("no/such/folder/file"), std::string::npos);
   }
 }
+
+TEST(Files, AllRanksHearThatTheRootFailed)
+{
+  EXPECT_THROW(on_root(MPI_COMM_WORLD, [] { throw BadInput("no room"); }), BadInput);
+  EXPECT_NO_THROW(on_root(MPI_COMM_WORLD, [] {}));
+}
+
+TEST(Files, NamesAFolderThatCannotBeMade)
+{
+  EXPECT_THROW(make_folder("/dev/null/folder"), BadInput);
+}

@@ -36,7 +36,8 @@ TEST(Study, settings_say_what_tells_a_case_from_the_others)
   const std::vector<StudyCase> cases = study_cases(p);
   ASSERT_EQ(cases.size(), 1u);
   const std::vector<std::string> expected = {
-    "Discretization/Method = tetrahedra", "Discretization/Degree = 2", "Discretization/Cells = 8"};
+    "Discretization/Method = tetrahedra", "Discretization/Degree = 2", "Discretization/Cells = 8",
+    "Discretization/Mesh size = 0"};
   EXPECT_EQ(cases[0].settings, expected);
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Writing text files so that a reader never sees half of one.
+// Writing text files so that a reader never sees half of one, and so that all ranks hear of a
+// failure.
 #pragma once
 
+#include <mpi.h>
+
+#include <functional>
 #include <string>
 
 namespace softcell
@@ -9,4 +13,11 @@ namespace softcell
   /// Puts the text into the file in one move; what stood there before stays until then.
   /// @throws BadInput if the file cannot be written.
   void write_file(const std::string &file, const std::string &text);
+
+  /// Makes a folder and those above it, unless they are there.
+  /// @throws BadInput if it cannot be made.
+  void make_folder(const std::string &folder);
+
+  /// Runs `write` on rank 0. If it throws BadInput there, all ranks throw that. Collective.
+  void on_root(MPI_Comm communicator, const std::function<void()> &write);
 } // namespace softcell

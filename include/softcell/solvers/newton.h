@@ -38,8 +38,8 @@ namespace softcell
 
   struct NewtonParameters
   {
-    double residual_tolerance   = 1e-8; // relative to force_scale
-    double update_tolerance     = 1e-8; // |du| / |u|
+    double residual_tolerance   = 1e-10; // relative to force_scale
+    double update_tolerance     = 1e-10; // |du| / |u|
     unsigned int max_iterations = 30;
     unsigned int max_halvings   = 12; // of a step in the line search
 
