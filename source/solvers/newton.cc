@@ -5,6 +5,8 @@
 
 #include <softcell/base/exceptions.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +21,13 @@ namespace softcell
     constexpr unsigned int max_poor_steps = 8;
     constexpr double short_step           = 1. / 8;
     constexpr double progress             = 0.9;
+
+    /// On all ranks. Norms are no way to ask: in Debug, deal.II stops at one that is not finite.
+    bool is_finite(const Vector &v)
+    {
+      const bool here = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+      return dealii::Utilities::MPI::min(int(here), v.get_mpi_communicator()) == 1;
+    }
 
     /// One run of newton_raphson(): the point reached, with its residual, and the step to the next.
     class Newton
@@ -95,17 +104,17 @@ namespace softcell
       {
         return false;
       }
-      return std::isfinite(trial_r_.l2_norm());
+      return is_finite(trial_r_);
     }
 
     /// Halves the step until nothing is inverted and the step gains something: the residual gets
     /// smaller, or the energy, whose slope along the step is du . r, goes down.
     Newton::Step Newton::search_line(NewtonIteration &iteration)
     {
+      if (!is_finite(du_))
+        return Step::rejected;
       const double residual = r_.l2_norm(), slope = du_ * r_;
       const double length = du_.l2_norm(), u_norm = u_.l2_norm();
-      if (!std::isfinite(length))
-        return Step::rejected;
 
       // What the step could gain is lost in the rounding of the work done so far.
       const bool stalled = std::abs(slope) <= 1e-15 * scale_ * u_norm;
