@@ -17,6 +17,11 @@ namespace softcell
                       "Stiffness of the part of a cut cell outside the body, relative to the part "
                       "inside; a small value such as 1e-6 steadies badly cut cells. Units: 1",
                       dealii::Patterns::Double(0, 1));
+    prm.add_parameter("Weighted cell spread", spread,
+                      "Part of its filled volume that a weighted cell spreads evenly over all of "
+                      "its points if few of them hold it all; 0 is Brunet's rule, whose slightly "
+                      "filled cells can be mechanisms. Units: 1",
+                      dealii::Patterns::Double(0, 1));
   }
 
   namespace

@@ -51,7 +51,7 @@ namespace softcell
 
     if (is_mechanism(fractions))
       for (double &v : fractions)
-        v += spread * (volume / cell_volume - v);
+        v += parameters_.spread * (volume / cell_volume - v);
     for (unsigned int i = 0; i < gauss_.size(); ++i)
       weights_.push_back((fractions[i] + parameters_.alpha * (1 - fractions[i])) *
                          gauss_.weight(i) * cell_volume);
@@ -62,8 +62,8 @@ namespace softcell
   bool WeightedCell::is_mechanism(const std::vector<double> &fractions)
   {
     const double largest        = *std::max_element(fractions.begin(), fractions.end());
-    const std::size_t n_weighty = std::count_if(
-      fractions.begin(), fractions.end(), [&](const double v) { return v > spread * largest; });
+    const std::size_t n_weighty = std::count_if(fractions.begin(), fractions.end(),
+                                                [&](const double v) { return v > 0.1 * largest; });
     return n_weighty < fractions.size() / 2;
   }
 

@@ -7,8 +7,11 @@
 #include "lattice.h"
 
 #include <softcell/base/exceptions.h>
+#include <softcell/geometry/shapes.h>
+#include <softcell/quadrature/weighted_cell.h>
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <gtest/gtest.h>
 
@@ -172,6 +175,33 @@ namespace
     const Elasticity soft(lattice, {Material("linear", E, nu), Material("linear", E, nu)});
     const Elasticity both(lattice, {Material("linear", E, nu), Material("linear", 3 * E, nu)});
     EXPECT_NEAR(both.energy(u), soft.energy(u) * (0.75 + 3 * 0.25), 1e-13);
+  }
+
+  // A cell of which an octant, or two beside each other, is filled. A point has six strains; of
+  // those of two points along x, the one along x is the same, as it is constant along x.
+  TEST(Elasticity, ASpreadWeightedCellHasNoMotionWithoutForceButRigidOnes)
+  {
+    const auto n_without_force = [](const unsigned int n_octants, const double spread) {
+      const auto body = make_box(Point(0.5 * n_octants, 0.5, 0.5));
+      WeightedCell rule({1, 0, spread}, 1, *body);
+      rule.add(Box({Point(), Point(1, 1, 1)}));
+      CutPoints points;
+      rule.points(0, points);
+      UnitCells lattice({{1, 1, 1}}, 2);
+      lattice.cells[0].weights = points.weights;
+      const Elasticity elasticity(lattice, {Material("Neo-Hookean", E, nu)});
+      dealii::LAPACKFullMatrix<double> K(24);
+      K = tangent(lattice, elasticity, lattice.make_vector());
+      K.compute_eigenvalues();
+      unsigned int n = 0;
+      for (unsigned int i = 0; i < 24; ++i)
+        n += std::abs(K.eigenvalue(i)) < 1e-12 * E;
+      return n;
+    };
+    EXPECT_EQ(n_without_force(1, 0), 24u - 6);
+    EXPECT_EQ(n_without_force(2, 0), 24u - 11);
+    for (const unsigned int n_octants : {1, 2})
+      EXPECT_EQ(n_without_force(n_octants, CutParameters().spread), 6u);
   }
 
   TEST(Elasticity, AnInvertedPointIsReportedUnlessItHasNoWeight)

@@ -95,4 +95,44 @@ namespace softcell
     for (unsigned int i = 0; i < 8; ++i)
       EXPECT_EQ(result.labels[i], i % 2);
   }
+
+  // Bodies that fill the cell up to a corner, and whether fewer than four octants hold more than a
+  // tenth of what the fullest one holds.
+  TEST(WeightedCell, SpreadsTheVolumeOfAMechanismAlone)
+  {
+    const auto weights = [](const Point &upper, const double spread) {
+      const Brick brick(Box({Point(-1, -1, -1), upper}));
+      WeightedCell rule({5, 0, spread}, 1, brick);
+      EXPECT_NEAR(rule.add(unit_cell), upper[0] * upper[1] * upper[2], 1e-14);
+      CutPoints result;
+      rule.points(0, result);
+      EXPECT_NEAR(total(result), upper[0] * upper[1] * upper[2], 1e-14);
+      return result.weights;
+    };
+    const std::vector<std::pair<Point, bool>> cases = {{Point(0.25, 0.5, 0.375), true},  // one
+                                                       {Point(0.75, 0.5, 0.5), true},    // two
+                                                       {Point(1, 17. / 32, 0.5), true},  // 1, 1/16
+                                                       {Point(1, 18. / 32, 0.5), false}, // 1, 1/8
+                                                       {Point(1, 0.75, 0.125), false}};
+    for (const auto &[upper, is_mechanism] : cases)
+    {
+      const auto brunet = weights(upper, 0);
+      for (unsigned int i = 0; i < 8; ++i)
+      {
+        const Point octant(i % 2, i / 2 % 2, i / 4);
+        double expected = 1;
+        for (unsigned int d = 0; d < 3; ++d)
+          expected *= std::clamp(upper[d] - octant[d] / 2, 0., 0.5);
+        EXPECT_NEAR(brunet[i], expected, 1e-14) << upper;
+      }
+      for (const double spread : {CutParameters().spread, 0.4})
+        for (unsigned int i = 0; i < 8; ++i)
+          EXPECT_NEAR(weights(upper, spread)[i],
+                      is_mechanism
+                        ? (1 - spread) * brunet[i] + spread * upper[0] * upper[1] * upper[2] / 8
+                        : brunet[i],
+                      1e-14)
+            << upper;
+    }
+  }
 } // namespace softcell

@@ -24,8 +24,9 @@ namespace softcell
   /// What the rules have in common. Declared in the section Discretization.
   struct CutParameters
   {
-    unsigned int levels = 3; // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
-    double alpha        = 0; // stiffness of what is outside relative to inside
+    unsigned int levels = 3;   // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
+    double alpha        = 0;   // stiffness of what is outside relative to inside
+    double spread       = 0.1; // part of a WeightedCell's volume that steadies it
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
