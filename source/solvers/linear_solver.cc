@@ -5,6 +5,7 @@
 
 #include <softcell/base/exceptions.h>
 #include <softcell/solvers/approximate_inverse.h>
+#include <softcell/solvers/dot.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
@@ -81,9 +82,9 @@ namespace softcell
         factors_->vmult(x, b);
         Vector Ax(matrix_->partitioner());
         matrix_->vmult(Ax, x);
-        const double b_norm = b.l2_norm();
         Ax -= b;
-        history_.assign(1, b_norm == 0 ? Ax.l2_norm() : Ax.l2_norm() / b_norm);
+        const double residual = std::sqrt(dot(Ax, Ax)), b_norm = std::sqrt(dot(b, b));
+        history_.assign(1, b_norm == 0 ? residual : residual / b_norm);
         if (!(history_[0] <= acceptable_residual)) // so written that a NaN fails
           throw NotConverged("the direct solver leaves a relative residual of " +
                              in_short(history_[0]) + ": the matrix is singular or nearly so");
@@ -129,6 +130,14 @@ namespace softcell
       }
 
     private:
+      double finite_dot(const Vector &x, const Vector &y) const
+      {
+        const double product = dot(x, y);
+        if (!std::isfinite(product))
+          fail("met a number that is not finite");
+        return product;
+      }
+
       [[noreturn]] void fail(const std::string &what) const
       {
         throw NotConverged("conjugate gradients with the preconditioner " +
@@ -146,7 +155,7 @@ namespace softcell
       history_.clear();
       x.zero_out_ghost_values();
       x                   = 0.;
-      const double b_norm = b.l2_norm();
+      const double b_norm = std::sqrt(finite_dot(b, b));
       if (b_norm == 0)
         return 0;
       Vector r(matrix_->partitioner()), z(r), p(r), Ap(r);
@@ -159,12 +168,10 @@ namespace softcell
           inverse_->vmult(z, r);
         else
           z = r;
-        const double rz = r * z;
+        const double rz = finite_dot(r, z);
         p.sadd(iteration > 1 ? rz / rz_before : 0., 1., z);
         matrix_->vmult(Ap, p);
-        const double pAp = p * Ap;
-        if (!std::isfinite(rz) || !std::isfinite(pAp))
-          fail("met a number that is not finite");
+        const double pAp = finite_dot(p, Ap);
         if (rz <= 0 || pAp <= 0) // the preconditioner or the matrix is indefinite
         {
           if (iteration == 1 && rz <= 0)
@@ -176,7 +183,7 @@ namespace softcell
         x.add(rz / pAp, p);
         r.add(-rz / pAp, Ap);
         rz_before = rz;
-        history_.push_back(r.l2_norm() / b_norm);
+        history_.push_back(std::sqrt(finite_dot(r, r)) / b_norm);
         if (history_.back() <= parameters_.tolerance)
           return iteration;
       }

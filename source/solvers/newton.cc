@@ -4,8 +4,7 @@
 #include <softcell/solvers/newton.h>
 
 #include <softcell/base/exceptions.h>
-
-#include <deal.II/base/mpi.h>
+#include <softcell/solvers/dot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +20,6 @@ namespace softcell
     constexpr unsigned int max_poor_steps = 8;
     constexpr double short_step           = 1. / 8;
     constexpr double progress             = 0.9;
-
-    /// On all ranks. Norms are no way to ask: in Debug, deal.II stops at one that is not finite.
-    bool is_finite(const Vector &v)
-    {
-      const bool here = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-      return dealii::Utilities::MPI::min(int(here), v.get_mpi_communicator()) == 1;
-    }
 
     /// One run of newton_raphson(): the point reached, with its residual, and the step to the next.
     class Newton
@@ -104,14 +96,14 @@ namespace softcell
       {
         return false;
       }
-      return is_finite(trial_r_);
+      return std::isfinite(dot(trial_r_, trial_r_));
     }
 
     /// Halves the step until nothing is inverted and the step gains something: the residual gets
     /// smaller, or the energy, whose slope along the step is du . r, goes down.
     Newton::Step Newton::search_line(NewtonIteration &iteration)
     {
-      if (!is_finite(du_))
+      if (!std::isfinite(dot(du_, du_)))
         return Step::rejected;
       const double residual = r_.l2_norm(), slope = du_ * r_;
       const double length = du_.l2_norm(), u_norm = u_.l2_norm();
