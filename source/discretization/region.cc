@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Named parts of a body's boundary.
-#include <softcell/base/exceptions.h>
 #include <softcell/discretization/region.h>
 
+#include <softcell/base/formula.h>
+
 #include <array>
-#include <muParser.h>
 #include <optional>
 #include <regex>
 
@@ -20,32 +20,18 @@ namespace softcell
   Region::Region(std::string name, const std::string &condition)
       : name_(std::move(name)), condition_(std::make_unique<Condition>())
   {
-    static const std::regex patch("\\s*patch\\s+(\\d{1,9})\\s*"), assignment("[^=!<>]=[^=]");
+    static const std::regex patch("\\s*patch\\s+(\\d{1,9})\\s*");
     if (std::smatch match; std::regex_match(condition, match, patch))
     {
       condition_->patch = std::stoul(match[1]);
       return;
     }
-
-    const std::string complaint =
-      "Regions/" + name_ + " = '" + condition + "' cannot be read as a condition: ";
-    const std::string remedy = "; give 'patch K' or an expression of x, y, z, nx, ny, nz such as "
-                               "'z < 0.01 && nz < 0'.";
-    if (std::regex_search(condition, assignment))
-      throw BadInput(complaint + "'=' does not compare, '==' does" + remedy);
-    try
-    {
-      static const std::array<const char *, 6> names = {{"x", "y", "z", "nx", "ny", "nz"}};
-      for (unsigned int i = 0; i < 6; ++i)
-        condition_->expression.DefineVar(names[i], &condition_->variables[i]);
-      condition_->expression.DefineConst("pi", dealii::numbers::PI);
-      condition_->expression.SetExpr(condition);
-      condition_->expression.Eval();
-    }
-    catch (const mu::Parser::exception_type &error)
-    {
-      throw BadInput(complaint + error.GetMsg() + remedy);
-    }
+    auto &[x, y, z, nx, ny, nz] = condition_->variables;
+    condition_->expression      = make_formula(
+           condition, {{"x", &x}, {"y", &y}, {"z", &z}, {"nx", &nx}, {"ny", &ny}, {"nz", &nz}},
+           "Regions/" + name_ + " = '" + condition + "' cannot be read as a condition",
+           "give 'patch K' or an expression of x, y, z, nx, ny, nz such as "
+                "'z < 0.01 && nz < 0'");
   }
 
   Region::~Region()                  = default;

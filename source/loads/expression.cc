@@ -4,11 +4,11 @@
 #include <softcell/loads/expression.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/formula.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <array>
-#include <muParser.h>
 #include <vector>
 
 namespace softcell
@@ -53,25 +53,15 @@ namespace softcell
                      std::to_string(n_components) +
                      (n_components == 1 ? " expression" : " expressions separated by commas") +
                      " of x, y, z and t.");
-    static const std::array<const char *, 4> names = {{"x", "y", "z", "t"}};
+    auto &[x, y, z, t] = formulas_->variables;
     for (const std::string &part : parts)
     {
-      mu::Parser &parser = formulas_->parsers.emplace_back();
       formulas_->is_free.push_back(part == "free");
-      for (unsigned int i = 0; i < names.size(); ++i)
-        parser.DefineVar(names[i], &formulas_->variables[i]);
-      parser.DefineConst("pi", dealii::numbers::PI);
-      try
-      {
-        parser.SetExpr(part == "free" ? "0" : part);
-        parser.Eval();
-        formulas_->uses_time |= parser.GetUsedVar().count("t") > 0;
-      }
-      catch (const mu::Parser::exception_type &error)
-      {
-        throw BadInput(place + " has '" + part + "', which cannot be read: " + error.GetMsg() +
-                       " Give an expression of x, y, z and t such as '30 * sin(pi * t)'.");
-      }
+      formulas_->parsers.push_back(
+        make_formula(part == "free" ? "0" : part, {{"x", &x}, {"y", &y}, {"z", &z}, {"t", &t}},
+                     place + " has '" + part + "', which cannot be read",
+                     "give an expression of x, y, z and t such as '30 * sin(pi * t)'"));
+      formulas_->uses_time |= formulas_->parsers.back().GetUsedVar().count("t") > 0;
     }
   }
 

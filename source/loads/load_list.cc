@@ -43,7 +43,7 @@ namespace softcell
     std::string suggestion(const std::string &word, const std::vector<std::string> &known)
     {
       const std::string nearest = nearest_word(word, known);
-      return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+      return nearest.empty() ? "." : "; did you mean '" + nearest + "'?";
     }
 
     std::string joined(const std::vector<std::string> &words)
@@ -199,8 +199,7 @@ namespace softcell
         else
         {
           Expression nowhere("0, 0, 0", 3, load.place);
-          hold(patches, nowhere);
-          add_force<Penalty>(std::move(patches), std::move(nowhere), std::move(value), load.region);
+          add_penalty(std::move(patches), std::move(nowhere), std::move(value), load.region);
         }
       }
 
@@ -247,27 +246,34 @@ namespace softcell
         }
         auto patches = surface_patches(region);
         check_numbers(displacement, patches);
-        hold(patches, displacement);
         if (how == "penalty" || how == "automatic")
-          add_penalty(std::move(patches), std::move(displacement), load.region);
+        {
+          if (is_nodal()) // k of each node in N/m, whatever its area
+            for (SurfacePatch &patch : patches)
+              patch.weights.assign(patch.weights.size(), 1.);
+          Expression stiffness(parameters_.penalty, 1,
+                               "Loads/Penalty = '" + parameters_.penalty + "'");
+          add_penalty(std::move(patches), std::move(displacement), std::move(stiffness),
+                      load.region);
+        }
         else if (is_nodal())
           throw BadInput("Loads/Surface integration = nodal has no Nitsche's method; choose "
                          "'Imposed displacement = penalty' or 'Surface integration = exact'.");
         else
+        {
+          hold(patches, displacement, Expression("1", 1, load.place));
           add_force<Nitsche>(std::move(patches), std::move(displacement), materials_,
                              parameters_.nitsche_factor, load.region);
+        }
       }
 
       void add_penalty(std::vector<SurfacePatch> patches,
                        Expression displacement,
+                       Expression stiffness,
                        const std::string &region)
       {
-        if (is_nodal()) // k of each node in N/m, whatever its area
-          for (SurfacePatch &patch : patches)
-            patch.weights.assign(patch.weights.size(), 1.);
-        Expression stiffness(parameters_.penalty, 1,
-                             "Loads/Penalty = '" + parameters_.penalty + "'");
-        check_numbers(stiffness, patches);
+        check_numbers(stiffness, patches, true);
+        hold(patches, displacement, stiffness);
         add_force<Penalty>(std::move(patches), std::move(displacement), std::move(stiffness),
                            region);
       }
@@ -289,12 +295,14 @@ namespace softcell
                          " selects nothing of the body's surface; mend its condition.");
       }
 
-      void check_numbers(const Expression &value, const std::vector<SurfacePatch> &patches) const
+      void check_numbers(const Expression &value,
+                         const std::vector<SurfacePatch> &patches,
+                         const bool is_stiffness = false) const
       {
         std::vector<Point> points;
         for (const SurfacePatch &patch : patches)
           points.insert(points.end(), patch.points.begin(), patch.points.end());
-        check_numbers(value, points);
+        check_numbers(value, points, is_stiffness);
       }
 
       void check_numbers(const Expression &value, const std::vector<unsigned int> &nodes) const
@@ -305,27 +313,36 @@ namespace softcell
         check_numbers(value, points);
       }
 
-      /// The value must be a number at full load at every point.
-      void check_numbers(const Expression &value, const std::vector<Point> &points) const
+      /// The value must be a number at full load at every point, that of a stiffness not negative.
+      void check_numbers(const Expression &value,
+                         const std::vector<Point> &points,
+                         const bool is_stiffness = false) const
       {
         std::ostringstream message;
         for (const Point &X : points)
-          if (!std::isfinite(value.value(X, 1).norm()) && message.str().empty())
-            message << value.place() << " is not a finite number at (" << X
-                    << "), t = 1; mend the expression or the region.";
+        {
+          const Direction found = value.value(X, 1);
+          const bool is_number  = std::isfinite(found.norm());
+          if ((is_number && !(is_stiffness && found[0] < 0)) || !message.str().empty())
+            continue;
+          message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
+                  << " at (" << X << "), t = 1; mend the expression or the region.";
+        }
         for (const std::string &any :
              dealii::Utilities::MPI::all_gather(discretization_.communicator(), message.str()))
           if (!any.empty())
             throw BadInput(any);
       }
 
-      /// Notes that the points cannot move freely.
-      void hold(const std::vector<SurfacePatch> &patches, const Expression &displacement)
+      /// Notes that the points cannot move freely where the stiffness is not 0.
+      void hold(const std::vector<SurfacePatch> &patches,
+                const Expression &displacement,
+                const Expression &stiffness)
       {
         for (const SurfacePatch &patch : patches)
           for (const Point &X : patch.points)
             for (unsigned int c = 0; c < 3; ++c)
-              if (!displacement.is_free(c))
+              if (!displacement.is_free(c) && stiffness.value(X, 1)[0] > 0)
                 held_.hold(X, c);
       }
 

@@ -39,7 +39,7 @@ namespace softcell
     {
       const auto modes  = dealii::eigenvectors(dealii::symmetrize(matrix)); // descending
       const auto n_free = std::count_if(modes.begin(), modes.end(),
-                                        [&](const auto &m) { return m.first < tolerance; });
+                                        [&](const auto &m) { return m.first <= tolerance; });
       if (n_free == 0)
         return "";
       if (n_free == 1)
@@ -58,7 +58,7 @@ namespace softcell
     {
       Matrix inverse;
       for (const auto &[value, direction] : dealii::eigenvectors(dealii::symmetrize(matrix)))
-        if (value >= tolerance)
+        if (value > tolerance)
           inverse += dealii::outer_product(direction, direction) / value;
       return inverse;
     }
@@ -98,23 +98,16 @@ namespace softcell
         coupling[i][j]    = all[6 * i + 3 + j];
         rotation[i][j]    = all[6 * (3 + i) + 3 + j];
       }
-    const double total       = dealii::trace(translation) + dealii::trace(rotation);
-    const std::string remedy = "; add a clamp, displacement or springs in Loads.";
-    if (total == 0)
-      return "nothing holds the body: translation along x, y and z and rotation about x, y and z "
-             "are free" +
-             remedy;
-
     // A free rotation may come with a translation: eliminate the translations that are held.
-    const double tolerance = 1e-10 * total;
+    const double tolerance = 1e-10 * (dealii::trace(translation) + dealii::trace(rotation));
     rotation -= transpose(coupling) * pseudo_inverse(translation, tolerance) * coupling;
     const std::string along = null_space(translation, tolerance);
     const std::string about = null_space(rotation, tolerance);
     if (along.empty() && about.empty())
       return "";
-    return "the supports do not hold the body: " +
-           (along.empty() ? "" : "translation along " + along) +
-           (along.empty() || about.empty() ? "" : " and ") +
-           (about.empty() ? "" : "rotation about " + about) + " is free" + remedy;
+    return "the supports leave the body free to " + (along.empty() ? "" : "move along " + along) +
+           (along.empty() || about.empty() ? "" : " and to ") +
+           (about.empty() ? "" : "turn about " + about) +
+           "; add a clamp, displacement or springs in Loads.";
   }
 } // namespace softcell

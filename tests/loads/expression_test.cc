@@ -52,5 +52,8 @@ namespace softcell
     EXPECT_NE(complaint("", 1), "");
     EXPECT_NE(complaint("1,,2", 3), "");
     EXPECT_NE(complaint("(1", 1), "");
+    EXPECT_NE(complaint("(1, 2)", 1), "");
+    EXPECT_NE(complaint("x = 3", 1).find("'==' does"), std::string::npos);
+    EXPECT_EQ(complaint("x == 3 || y <= 2", 1), "");
   }
 } // namespace softcell

@@ -108,6 +108,9 @@ namespace softcell
     problem.parameters.penalty    = "100*10^t";
     EXPECT_NEAR(problem.loads(grid, entries).forces.at(0)->total_force(u, 1)[2], 100, 1e-10);
 
+    problem.parameters.penalty = "-1e8";
+    EXPECT_TRUE(says(problem.complaint(grid, entries), "Loads/Penalty = '-1e8' is negative at"));
+    problem.parameters.penalty             = "100*10^t";
     problem.parameters.surface_integration = "nodal"; // 3 x 3 nodes of 1000 N/m
     EXPECT_NEAR(problem.loads(grid, entries).forces.at(0)->total_force(u, 1)[2], 900, 1e-10);
     problem.parameters.imposition = "Nitsche";
@@ -118,12 +121,13 @@ namespace softcell
   {
     const Problem problem;
     const BoxOfCells body = unit_cube(true), grid = unit_cube(false);
-    EXPECT_TRUE(
-      says(problem.loads(body, {{"top", "traction 0, 0, 1"}}).free_motions, "nothing holds"));
+    EXPECT_TRUE(says(problem.loads(body, {{"top", "traction 0, 0, 1"}}).free_motions,
+                     "free to move along x, y and z and"));
     EXPECT_EQ(problem.loads(grid, {{"top", "springs 1e6"}}).free_motions, "");
+    EXPECT_NE(problem.loads(grid, {{"top", "springs 0"}}).free_motions, "");
     for (const BoxOfCells *any : {&body, &grid})
       EXPECT_TRUE(says(problem.loads(*any, {{"base", "displacement free, free, 0"}}).free_motions,
-                       "translation along x and y and rotation about z is free"));
+                       "free to move along x and y and to turn about z"));
   }
 
   TEST(LoadList, NamesWhatIsWrong)
@@ -141,6 +145,8 @@ namespace softcell
     EXPECT_TRUE(says(says_of("top", "traction 1, 2"), "has 2 components"));
     EXPECT_TRUE(says(says_of("top", "traction free, 0, 0"), "only a displacement may have"));
     EXPECT_TRUE(says(says_of("top", "displacement free, free, free"), "every component free"));
+    EXPECT_TRUE(says(says_of("top", "traction 0, x = 3, 0"), "'==' does"));
+    EXPECT_TRUE(says(says_of("base", "springs 0.5 - x"), "is negative at"));
     EXPECT_TRUE(says(says_of("top", "pressure 1/(x-x)"), "not a finite number at"));
     EXPECT_TRUE(says(says_of("top", ""), "is empty"));
     EXPECT_TRUE(says(says_of("nothing", "clamp"), "Regions/nothing selects nothing"));

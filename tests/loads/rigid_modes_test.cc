@@ -31,11 +31,12 @@ namespace softcell
 
   TEST(RigidModes, CountsWhatPointsHold)
   {
-    EXPECT_TRUE(says(free_if_held({}), "nothing holds the body: translation along x, y and z"));
+    EXPECT_TRUE(
+      says(free_if_held({}), "free to move along x, y and z and to turn about x, y and z;"));
     const std::string one = free_if_held({Point(1, 2, 1)});
-    EXPECT_TRUE(says(one, ": rotation about x, y and z is free")) << one;
+    EXPECT_TRUE(says(one, "free to turn about x, y and z;")) << one;
     const std::string line = free_if_held({Point(1, 2, 1), Point(1, 2, 4), Point(1, 2, 3)});
-    EXPECT_TRUE(says(line, ": rotation about z is free")) << line;
+    EXPECT_TRUE(says(line, "free to turn about z;")) << line;
     EXPECT_EQ(free_if_held({Point(1, 1, 1), Point(2, 1, 1), Point(1, 2, 1)}), "");
   }
 
@@ -45,11 +46,11 @@ namespace softcell
     RigidModes table(Box({Point(1, 1, 1), Point(2, 2, 4)}));
     for (const Point &X : face)
       table.hold(X, 2);
-    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF),
-                     "translation along x and y and rotation about z is free"));
+    EXPECT_TRUE(
+      says(table.free_motions(MPI_COMM_SELF), "free to move along x and y and to turn about z;"));
     table.hold(face[0], 0);
     table.hold(face[0], 1);
-    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF), ": rotation about z is free"));
+    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF), "free to turn about z;"));
     table.hold(face[1], 1);
     EXPECT_EQ(table.free_motions(MPI_COMM_SELF), "");
   }
@@ -57,6 +58,6 @@ namespace softcell
   TEST(RigidModes, NamesObliqueAxes)
   {
     const std::string text = free_if_held({Point(1, 1, 1), Point(2, 2, 1)});
-    EXPECT_TRUE(says(text, "rotation about (0.707, 0.707, 0) is free")) << text;
+    EXPECT_TRUE(says(text, "free to turn about (0.707, 0.707, 0);")) << text;
   }
 } // namespace softcell
