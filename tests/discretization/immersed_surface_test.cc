@@ -21,34 +21,6 @@ namespace softcell
       parameters.surface_refinement = refinement;
       return parameters;
     }
-
-    // sum over nodes of |int_body grad N - int_surface N n|, relative to the surface's area
-    double divergence_defect(const Immersed &immersed)
-    {
-      Vector defect = immersed.make_vector();
-      PatchStorage storage;
-      for (unsigned int i = 0; i < immersed.n_patches(); ++i)
-      {
-        const Patch patch = immersed.patch(i, storage);
-        for (unsigned int q = 0; q < patch.n_points(); ++q)
-          for (unsigned int d = 0; d < 3; ++d)
-            for (unsigned int k = 0; k < patch.n_nodes(); ++k)
-              defect.local_element(3 * patch.nodes[k] + d) +=
-                patch.weights[q] * patch.shapes->gradient(q)[d * patch.n_nodes() + k];
-      }
-      double area = 0;
-      for (const SurfacePatch &patch : immersed.surface_patches(Region("all", "1")))
-        for (unsigned int q = 0; q < patch.weights.size(); ++q)
-        {
-          area += patch.weights[q];
-          for (unsigned int k = 0; k < patch.nodes.size(); ++k)
-            for (unsigned int d = 0; d < 3; ++d)
-              defect.local_element(3 * patch.nodes[k] + d) -=
-                patch.weights[q] * patch.shapes.value(q)[k] * patch.normals[q][d];
-        }
-      defect.compress(dealii::VectorOperation::add);
-      return defect.l1_norm() / dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
-    }
   } // namespace
 
   TEST(ImmersedSurface, EveryPieceAppearsOnce)
@@ -90,35 +62,6 @@ namespace softcell
           EXPECT_NEAR(x_n, 3 * body->surface().volume(), 1e-7 * x_n);
           EXPECT_LT(n.norm(), 1e-9 * area);
         }
-  }
-
-  TEST(ImmersedSurface, DivergenceTheoremHoldsExactlyWhereTheOctreeMeetsTheBoundary)
-  {
-    const auto body = make_box(Point(1, 1, 1));
-    for (unsigned int degree = 1; degree <= 2; ++degree)
-    {
-      // three cells of 1/2 on [-1/4, 5/4]: the boundary halves the outer ones
-      const Immersed immersed("finite cell", degree, scaled_grid(3, 1.5), {1, 0}, *body,
-                              MPI_COMM_WORLD);
-      EXPECT_LT(divergence_defect(immersed), 1e-8);
-    }
-  }
-
-  TEST(ImmersedSurface, DivergenceTheoremConvergesWithTheLevels)
-  {
-    const auto body = make_torus(1, 0.3);
-    std::array<double, 5> defect;
-    for (unsigned int levels = 0; levels <= 4; ++levels)
-    {
-      const Immersed immersed("finite cell", 1, scaled_grid(5, 1.13), {levels, 0}, *body,
-                              MPI_COMM_WORLD);
-      defect[levels] = divergence_defect(immersed);
-    }
-    // down to the difference between the torus and its facets, whose vertices alone lie on it
-    for (unsigned int levels = 1; levels <= 4; ++levels)
-      EXPECT_LT(defect[levels], defect[levels - 1]) << levels;
-    EXPECT_LT(defect[2], defect[0] / 4);
-    EXPECT_LT(defect[4], 0.01);
   }
 
   TEST(ImmersedSurface, FlushFacesHaveNodesThatDetermineThem)
