@@ -26,6 +26,20 @@ stage()
   echo "done in $((SECONDS - start)) s"
 }
 
+# as_root 'COMMANDS': runs them in a shell, by sudo where we are not root.
+as_root()
+{
+  if [ "$(id -u)" = 0 ]; then
+    bash -c "$1"
+  elif command -v sudo > /dev/null; then
+    echo "sudo may ask for your password."
+    sudo bash -c "$1"
+  else
+    echo "Run this as root, there is no sudo here to do it: $1" >&2
+    return 1
+  fi
+}
+
 # mpi RANKS COMMAND...: one rank runs without mpirun.
 mpi()
 {
