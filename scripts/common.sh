@@ -32,7 +32,7 @@ as_root()
   if [ "$(id -u)" = 0 ]; then
     bash -c "$1"
   elif command -v sudo > /dev/null; then
-    echo "sudo may ask for your password."
+    echo "sudo may ask for your password." >&2
     sudo bash -c "$1"
   else
     echo "Run this as root, there is no sudo here to do it: $1" >&2
