@@ -9,15 +9,11 @@
 
 #include <cmath>
 #include <sstream>
-#include <unistd.h>
 
 namespace softcell
 {
   namespace
   {
-    // What a cell of the grid takes with its nodes and patches at degree 1, measured. Units: bytes
-    constexpr double bytes_per_cell = 800;
-
     std::string grid_entry(const GridParameters &parameters)
     {
       std::ostringstream text;
@@ -29,19 +25,15 @@ namespace softcell
       return text.str();
     }
 
-    void check_size(const std::array<double, 3> &cells, const GridParameters &parameters)
+    /// 20 bits an axis number the cells, of which 4 are kept for the refinement.
+    void check_countable(const std::array<double, 3> &cells, const GridParameters &parameters)
     {
-      const double memory = double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-      const double n      = cells[0] * cells[1] * cells[2];
-      // 20 bits an axis for the keys of cells, of which 4 are kept for the refinement
-      const bool fits = n < std::pow(2., 31) && std::max({cells[0], cells[1], cells[2]}) < 65536;
-      if (fits && n * bytes_per_cell < memory)
+      const double n = cells[0] * cells[1] * cells[2];
+      if (n < std::pow(2., 31) && std::max({cells[0], cells[1], cells[2]}) < 65536)
         return;
       std::ostringstream text;
       text << grid_entry(parameters) << " makes a grid of " << cells[0] << " x " << cells[1]
-           << " x " << cells[2] << " = " << n << " cells, which takes about "
-           << n * bytes_per_cell / 1e9 << " GB of memory where this machine has " << memory / 1e9
-           << " GB; give fewer cells.";
+           << " x " << cells[2] << " cells, which are too many to count; give fewer cells.";
       throw BadInput(text.str());
     }
   } // namespace
@@ -135,11 +127,9 @@ namespace softcell
 
   BackgroundGrid::~BackgroundGrid() = default;
 
-  std::array<unsigned int, 3> BackgroundGrid::lay_lattice(const GridParameters &parameters,
-                                                          const Box &body)
+  std::array<double, 3> grid_cells(const GridParameters &parameters, const Box &body, Direction &h)
   {
     const auto &[lower, upper] = body.get_boundary_points();
-    const Point centre         = lower + 0.5 * (upper - lower);
     Direction size             = parameters.scale * (upper - lower);
     for (unsigned int d = 0; d < dim; ++d)
       size[d] += 2 * parameters.padding;
@@ -148,23 +138,30 @@ namespace softcell
     if (parameters.cells.size() == 3 && parameters.cell_size <= 0)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        n[d]                = parameters.cells[d];
-        lattice_.spacing[d] = size[d] / n[d];
+        n[d] = parameters.cells[d];
+        h[d] = size[d] / n[d];
       }
     else if (parameters.cells.size() == 1 || parameters.cell_size > 0)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double h      = parameters.cell_size > 0
-                                ? parameters.cell_size
-                                : std::min({size[0], size[1], size[2]}) / parameters.cells[0];
-        n[d]                = std::max(1., std::ceil(size[d] / h - 1e-6));
-        lattice_.spacing[d] = h;
+        h[d] = parameters.cell_size > 0
+                 ? parameters.cell_size
+                 : std::min({size[0], size[1], size[2]}) / parameters.cells[0];
+        n[d] = std::max(1., std::ceil(size[d] / h[d] - 1e-6));
       }
     else
       throw BadInput(grid_entry(parameters) + " has two numbers; give one for the shortest side or "
                                               "three along x, y and z.");
-    check_size(n, parameters);
+    return n;
+  }
 
+  std::array<unsigned int, 3> BackgroundGrid::lay_lattice(const GridParameters &parameters,
+                                                          const Box &body)
+  {
+    const std::array<double, 3> n = grid_cells(parameters, body, lattice_.spacing);
+    check_countable(n, parameters);
+
+    const Point centre = body.center();
     for (unsigned int d = 0; d < dim; ++d)
       lattice_.origin[d] = centre[d] - n[d] / 2 * lattice_.spacing[d];
     lattice_.spacing /= coarsest_size_;

@@ -13,22 +13,6 @@ namespace softcell
 {
   namespace
   {
-    /// Cells along x, y and z.
-    std::array<unsigned int, 3> cells_along(const Box &box, const std::vector<unsigned int> &cells)
-    {
-      if (cells.size() == 3)
-        return {{cells[0], cells[1], cells[2]}};
-      if (cells.size() != 1)
-        throw BadInput("Discretization/Cells has " + std::to_string(cells.size()) +
-                       " numbers; give one for the shortest side or three for x, y and z.");
-      std::array<unsigned int, 3> n;
-      const double shortest =
-        std::min({box.side_length(0), box.side_length(1), box.side_length(2)});
-      for (unsigned int d = 0; d < 3; ++d)
-        n[d] = std::lround(cells[0] * box.side_length(d) / shortest);
-      return n;
-    }
-
     Mesh hexahedra(const GeometryParameters &geometry, const std::array<unsigned int, 3> &n)
     {
       if (geometry.type == "box")
@@ -57,6 +41,20 @@ namespace softcell
       remarks.push_back(text.str());
     }
   } // namespace
+
+  std::array<unsigned int, 3> cells_along(const Box &box, const std::vector<unsigned int> &cells)
+  {
+    if (cells.size() == 3)
+      return {{cells[0], cells[1], cells[2]}};
+    if (cells.size() != 1)
+      throw BadInput("Discretization/Cells has " + std::to_string(cells.size()) +
+                     " numbers; give one for the shortest side or three for x, y and z.");
+    std::array<unsigned int, 3> n;
+    const double shortest = std::min({box.side_length(0), box.side_length(1), box.side_length(2)});
+    for (unsigned int d = 0; d < 3; ++d)
+      n[d] = std::lround(cells[0] * box.side_length(d) / shortest);
+    return n;
+  }
 
   void MeshParameters::add_parameters(dealii::ParameterHandler &prm)
   {

@@ -34,6 +34,11 @@ namespace softcell
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// Unrefined cells of the grid around a body along each axis, and their edges h (m). The numbers
+  /// are whole, and may be more than there is memory for.
+  /// @throws BadInput
+  std::array<double, 3> grid_cells(const GridParameters &parameters, const Box &body, Direction &h);
+
   /// The finest cells of an octree grid, counted along the axes from a corner of its box.
   struct Lattice
   {
@@ -95,7 +100,7 @@ namespace softcell
     };
 
     /// @param cut_work  work of a cut cell relative to that of a full one.
-    /// @throws BadInput if no cell holds some of the body, or there are more cells than memory.
+    /// @throws BadInput if no cell holds some of the body, or there are too many to count.
     BackgroundGrid(const GridParameters &parameters,
                    const Body &body,
                    double cut_work,

@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ namespace softcell
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);
   };
+
+  /// Cells along x, y and z of what the entry `Cells` asks for. @throws BadInput
+  std::array<unsigned int, 3> cells_along(const Box &box, const std::vector<unsigned int> &cells);
 
   /// Makes or reads the mesh, the same on all ranks: hexahedra of a box or a cylinder, Kuhn's
   /// tetrahedra of a box unless a size is given, CGAL's tetrahedra of any other body. Collective.
