@@ -61,8 +61,10 @@ namespace softcell
     const std::vector<BodyType> body_types = {
       {"surface",
        [](const GeometryParameters &p, Remarks &remarks) -> std::unique_ptr<Body> {
-         return std::make_unique<SurfaceBody>(
-           read_surface(file_of(p), positive("Scale", p.scale), remarks));
+         Surface surface = read_surface(file_of(p), positive("Scale", p.scale), remarks);
+         if (p.labels.empty())
+           return std::make_unique<SurfaceBody>(std::move(surface));
+         return std::make_unique<SurfaceBody>(surface, p.labels, p.file);
        }},
       {"image",
        [](const GeometryParameters &p, Remarks &remarks) -> std::unique_ptr<Body> {
@@ -110,8 +112,10 @@ namespace softcell
                       "Units: m per unit of the file: 0.001 for a file in millimetres.", Double(0));
     prm.add_parameter(
       "Labels", labels,
-      "Image: the labels whose voxels form the body, e.g. 85, 255. Empty: all but 0. Each "
-      "may have a section `Material LABEL` of its own.",
+      "Image: the labels whose voxels form the body, e.g. 85, 255. Empty: all but 0. Surface: the "
+      "patches whose closed parts are filled even where they lie inside another part, which are "
+      "holes otherwise; those with a section `Material LABEL` need not be named. Each may have a "
+      "section `Material LABEL` of its own.",
       List(Integer(0), 0, 255));
     prm.add_parameter("Radius", radius,
                       "Units: m. Cylinder and sphere; of a torus, that of its tube; of a hexagonal "

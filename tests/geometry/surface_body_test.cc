@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Classification and filled volumes of boxes in bodies bounded by triangles.
 
+#include <softcell/base/exceptions.h>
 #include <softcell/geometry/surface_body.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "shapes.h"
 
@@ -36,6 +38,24 @@ namespace
       }
     });
     return sum;
+  }
+
+  /// Cubes around the origin, each with half its edge and the one patch of its triangles.
+  Surface cubes(const std::vector<std::pair<double, unsigned int>> &list)
+  {
+    std::vector<Point> vertices;
+    std::vector<Surface::Triangle> triangles;
+    std::vector<unsigned int> patches;
+    for (const auto &[half, patch] : list)
+    {
+      const Surface cube       = brick(Point(-half, -half, -half), Point(half, half, half));
+      const unsigned int first = vertices.size();
+      vertices.insert(vertices.end(), cube.vertices().begin(), cube.vertices().end());
+      for (const auto &[a, b, c] : cube.triangles())
+        triangles.push_back({a + first, b + first, c + first});
+      patches.insert(patches.end(), 12, patch);
+    }
+    return Surface(vertices, triangles, patches);
   }
 
   /// A cube of side 2 with a round hole in its middle.
@@ -126,4 +146,58 @@ TEST(SurfaceBody, HoleIsOutside)
   EXPECT_TRUE(body.contains(Point(0.9, 0.9, 0.9)));
   EXPECT_EQ(body.classify(Box({Point(-0.1, -0.1, -0.1), Point(0.1, 0.1, 0.1)})), Side::outside);
   EXPECT_EQ(body.surface().triangles().size(), 12 + hole.triangles().size());
+}
+
+TEST(SurfaceBody, FillsAPartInsideByItsOwnMaterial)
+{
+  const SurfaceBody body(cubes({{0.5, 7}, {1, 3}}), {7}, "");
+  EXPECT_EQ(body.n_labels(), 2u);
+  EXPECT_EQ(body.label_name(1), "7");
+  EXPECT_NEAR(body.volume(), 8, 1e-14);
+  EXPECT_NEAR(body.surface().area(), 24, 1e-13);
+  EXPECT_EQ(body.surface().patches(), std::vector<unsigned int>(12, 3));
+  EXPECT_TRUE(body.contains(Point(0.1, 0.2, 0.3)));
+  EXPECT_EQ(body.classify(Box({Point(0, 0, 0), Point(0.9, 0.9, 0.9)})), Side::inside);
+  EXPECT_EQ(body.label(Point(0.1, 0.2, 0.3)), 1u);
+  EXPECT_EQ(body.label(Point(0.1, 0.2, 0.7)), 0u);
+  EXPECT_EQ(body.label(Point(0.1, 0.2, 1.1)), 0u);
+}
+
+TEST(SurfaceBody, KnowsHolesAndMaterialsWithinEachOther)
+{
+  // from outside: base, a hole, material 5 in it, material 6 in that, a hole in this
+  const std::vector<std::pair<double, unsigned int>> list = {
+    {5, 0}, {4, 1}, {3, 5}, {2, 6}, {1, 2}};
+  const SurfaceBody body(cubes(list), {6, 5}, "");
+  EXPECT_NEAR(body.volume(), 1000 - 512 + 216 - 8, 1e-10);
+  EXPECT_NEAR(body.surface().area(), 6 * (100 + 64 + 36 + 4), 1e-10);
+  for (const auto &[x, is_filled, label] : {std::tuple{4.5, true, 0u},
+                                            {3.6, false, 0u},
+                                            {3.4, false, 2u},
+                                            {2.5, true, 2u},
+                                            {1.5, true, 1u},
+                                            {0.5, false, 1u}})
+  {
+    const Point X(x, 0.1, 0.2);
+    EXPECT_EQ(body.contains(X), is_filled) << x;
+    if (is_filled || x < 3) // in the outer hole either label is near
+    {
+      EXPECT_EQ(body.label(X), label) << x;
+    }
+  }
+}
+
+TEST(SurfaceBody, NamesTheLabelThatIsNoClosedPart)
+{
+  try
+  {
+    SurfaceBody(cubes({{0.5, 7}, {1, 3}}), {7, 4}, "liver.stl");
+    FAIL();
+  }
+  catch (const BadInput &error)
+  {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("liver.stl: no closed part of the surface is patch 4"), 0u) << text;
+    EXPECT_NE(text.find("its 2 closed parts are patch 7, 3."), std::string::npos) << text;
+  }
 }

@@ -18,7 +18,8 @@ namespace softcell
     std::string type                 = "surface"; // one of the names registered in geometry.cc
     std::string file                 = "";        // surface or image
     double scale                     = 1;         // metres per unit of the file
-    std::vector<unsigned int> labels = {}; // image: the labels that form the body; empty: all but 0
+    std::vector<unsigned int> labels = {}; // image: those that form the body; empty: all but 0
+                                           // surface: patches of parts with their own material
     double radius = 0.05; // cylinder, sphere, torus (of the tube), hexagonal prism (circumradius)
     double ring_radius = 0.1;            // torus: from the axis to the middle of the tube
     double length      = 0.6;            // cylinder, hexagonal prism: along z
