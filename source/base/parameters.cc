@@ -119,7 +119,12 @@ namespace softcell
       if (pattern == "[Integer]")
         return "a whole number";
       if (std::regex_match(pattern, match, std::regex(R"(\[Selection (.*) \])")))
-        return "one of " + std::regex_replace(match[1].str(), std::regex(R"(\|)"), ", ");
+      {
+        const std::string choices = match[1];
+        return choices.find('|') == std::string::npos
+                 ? choices + ", the only choice of this version"
+                 : "one of " + std::regex_replace(choices, std::regex(R"(\|)"), ", ");
+      }
       if (pattern == "[Bool]")
         return "true or false";
       if (std::regex_match(
@@ -286,7 +291,7 @@ namespace softcell
       std::smatch match;
       if (line.empty())
         continue;
-      else if (std::regex_match(line, match, set))
+      else if (std::regex_match(line, match, set) && !trim(match[1]).empty())
       {
         Path path = section;
         path.push_back(trim(match[1]));
@@ -397,16 +402,6 @@ namespace softcell
                        allowed(node->get<std::string>("pattern_description")) + ".");
       }
     }
-  }
-
-  std::string ParameterFile::location(const std::string &section, const std::string &entry) const
-  {
-    Path path = dealii::Utilities::split_string_list(section, '/');
-    path.push_back(entry);
-    for (const Item &item : items_)
-      if (item.path == path)
-        return item.location;
-    return file_;
   }
 
   void print_parameters(dealii::ParameterHandler &prm, std::ostream &out)

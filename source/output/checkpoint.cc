@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <hdf5.h>
 #include <map>
 #include <vector>
@@ -59,10 +60,11 @@ namespace softcell
 
     bool write_content(const std::string &name, const Content &content)
     {
-      bool is_good = false;
+      const std::string part = name + ".part"; // a run may be killed while it writes
+      bool is_good           = false;
       H5E_BEGIN_TRY // its own messages are for programmers
       {
-        const hid_t file = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t file = H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
         const hsize_t n  = content.positions.size() / 3;
         is_good = file >= 0 && write_data(file, "positions", {n, 3}, content.positions.data()) &&
                   write_data(file, "displacement", {n, 3}, content.displacement.data()) &&
@@ -70,7 +72,10 @@ namespace softcell
         is_good = H5Fclose(file) >= 0 && is_good;
       }
       H5E_END_TRY
-      return is_good;
+      if (is_good && std::rename(part.c_str(), name.c_str()) == 0)
+        return true;
+      std::remove(part.c_str());
+      return false;
     }
 
     Content read_content(const std::string &name)
@@ -89,6 +94,12 @@ namespace softcell
       H5E_END_TRY
       if (content.is_good)
         content.load_factor = load_factor[0];
+      const auto is_finite = [](const std::vector<double> &values) {
+        return std::all_of(values.begin(), values.end(),
+                           [](const double value) { return std::isfinite(value); });
+      };
+      content.is_good = content.is_good && is_finite(content.positions) &&
+                        is_finite(content.displacement) && is_finite(load_factor);
       return content;
     }
 
@@ -177,7 +188,9 @@ namespace softcell
       content = read_content(file);
     content = mpi::broadcast(communicator, content);
     if (!content.is_good)
-      throw BadInput("The checkpoint '" + file + "' cannot be read; give one that softcell wrote.");
+      throw BadInput("The checkpoint '" + file +
+                     "' cannot be read; give a whole one that softcell "
+                     "wrote.");
 
     const NodesByPosition nodes(content.positions);
     int n_missing = 0;
@@ -191,7 +204,8 @@ namespace softcell
     n_missing = mpi::sum(n_missing, communicator);
     if (n_missing > 0)
       throw BadInput("The checkpoint '" + file + "' lacks " + std::to_string(n_missing) +
-                     " nodes of this discretization; start from one with the same grid or mesh.");
+                     " of the " + std::to_string(discretization.partitioner()->size() / 3) +
+                     " nodes; start from one of the same grid or mesh.");
     u.update_ghost_values();
     return content.load_factor;
   }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <softcell/output/results.h>
 
-#include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 
 namespace softcell
@@ -52,29 +50,6 @@ namespace softcell
       for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "" : ",") + csv_cell(cells[i]);
       return text + '\n';
-    }
-
-    /// The cells of the next row, which may span lines inside quotes; none at the end of the file.
-    std::vector<std::string> next_row(std::istream &in)
-    {
-      std::vector<std::string> cells;
-      bool is_quoted = false;
-      for (int c = in.get(); c != EOF; c = in.get())
-      {
-        if (cells.empty())
-          cells.emplace_back();
-        if (c == '"' && is_quoted && in.peek() == '"')
-          cells.back() += static_cast<char>(in.get());
-        else if (c == '"')
-          is_quoted = !is_quoted;
-        else if (c == ',' && !is_quoted)
-          cells.emplace_back();
-        else if (c == '\n' && !is_quoted)
-          return cells;
-        else
-          cells.back() += static_cast<char>(c);
-      }
-      return cells;
     }
   } // namespace
 
@@ -133,26 +108,5 @@ namespace softcell
       text += line(cells);
     }
     write_file(file_, text);
-  }
-
-  std::vector<ResultsRow> ResultsTable::read(const std::string &file)
-  {
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-      throw BadInput("The results file '" + file + "' cannot be opened; check its name.");
-    const std::vector<std::string> columns = next_row(in);
-    std::vector<ResultsRow> rows;
-    for (auto cells = next_row(in); !cells.empty(); cells = next_row(in))
-    {
-      if (cells.size() != columns.size())
-        throw BadInput("'" + file + "' has " + std::to_string(cells.size()) + " values in row " +
-                       std::to_string(rows.size() + 1) + " but " + std::to_string(columns.size()) +
-                       " columns; write it anew.");
-      rows.emplace_back();
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        if (!cells[i].empty())
-          rows.back().set(columns[i], cells[i]);
-    }
-    return rows;
   }
 } // namespace softcell

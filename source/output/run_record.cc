@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <vtkVersionMacros.h>
 
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 
@@ -39,6 +40,8 @@ namespace softcell
 
     std::string number(const double value)
     {
+      if (!std::isfinite(value))
+        return "null";
       char text[32];
       std::snprintf(text, sizeof(text), "%.6g", value);
       return text;
@@ -72,7 +75,7 @@ namespace softcell
               {"Trilinos", triple(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
                                   DEAL_II_TRILINOS_VERSION_SUBMINOR)},
               {"PETSc", triple(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
-              {"MPI", json_string(std::string(mpi, length))},
+              {"MPI", json_string(mpi)},
               {"compiler", json_string(__VERSION__)}};
     }
   } // namespace
@@ -92,6 +95,15 @@ namespace softcell
     for (const std::string &remark : record.remarks)
       remarks += (remarks.empty() ? "" : ", ") + json_string(remark);
 
+    Members residuals;
+    for (const auto &[name, values] : record.linear_residuals)
+    {
+      std::string list;
+      for (const double value : values)
+        list += (list.empty() ? "" : ", ") + number(value);
+      residuals.emplace_back(name, "[" + list + "]");
+    }
+
     return object({{"program", json_string("softcell")},
                    {"version", json_string(version)},
                    {"commit", json_string(commit)},
@@ -103,6 +115,7 @@ namespace softcell
                    {"ranks", std::to_string(record.ranks)},
                    {"wall_s", number(record.wall_s)},
                    {"remarks", "[" + remarks + "]"},
+                   {"linear_residuals", object(residuals, "  ")},
                    {"libraries", object(libraries(), "  ")},
                    {"parameters", object(parameters, "  ")}},
                   "") +

@@ -116,8 +116,7 @@ namespace softcell
   SolutionWriter::SolutionWriter(const Discretization &discretization, std::string stem)
       : communicator_(discretization.communicator()),
         stem_(std::move(stem)),
-        cells_(discretization.drawn_cells()),
-        files_({stem_ + ".pvd"})
+        cells_(discretization.drawn_cells())
   {
   }
 
@@ -155,7 +154,6 @@ namespace softcell
     };
     const std::string file = n_ranks == 1 ? piece(0) : state + ".pvtu";
     states_.emplace_back(time, name(file));
-    files_.push_back(file);
     if (rank == 0 && is_written)
       try
       {

@@ -89,6 +89,14 @@ namespace softcell
     return forces;
   }
 
+  double Model::load_energy(const Vector &u) const
+  {
+    double energy = 0;
+    for (const auto &force : loads_.forces)
+      energy += force->energy(u, load_factor_);
+    return energy;
+  }
+
   void Model::unconstrained_residual(const Vector &u, Vector &internal, Vector &external) const
   {
     internal = 0;

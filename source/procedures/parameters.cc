@@ -3,6 +3,9 @@
 
 #include <softcell/procedures/parameters.h>
 
+#include <softcell/base/exceptions.h>
+
+#include <algorithm>
 #include <functional>
 
 namespace softcell
@@ -31,6 +34,16 @@ namespace softcell
     prm.add_parameter("Density", density, "Units: kg/m^3. Needed for the weight only.");
   }
 
+  void ProcedureParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Mode", mode, "Equilibrium under loads that grow slowly.",
+                      dealii::Patterns::Selection("static"));
+    prm.add_parameter(
+      "Start from", start_from,
+      "checkpoint.h5 of an earlier run on the same grid or mesh: the run starts from its "
+      "displacement and goes on with the load where it stopped. Empty: from the body at rest.");
+  }
+
   void OutputParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Directory", directory,
@@ -38,7 +51,13 @@ namespace softcell
     prm.add_parameter("Volume", volume,
                       "Write solution.pvd: displacement, von Mises stress, J and cut fraction.");
     prm.add_parameter("Surface", surface, "Write surface.vtp: the body's own surface, deformed.");
-    prm.add_parameter("Checkpoint", checkpoint, "Write checkpoint.h5: positions, displacement.");
+    prm.add_parameter("Checkpoint", checkpoint,
+                      "Write checkpoint.h5: node positions, displacement and load factor, from "
+                      "which 'Solver/Start from' goes on.");
+    prm.add_parameter("Every", every,
+                      "Load steps from one state to the next that solution.pvd gets; checkpoint.h5 "
+                      "has the latest of them. 0: the last state alone.",
+                      dealii::Patterns::Integer(0));
   }
 
   void StudyParameters::add_parameters(dealii::ParameterHandler &prm)
@@ -47,11 +66,17 @@ namespace softcell
       "Methods", methods,
       "List of methods to compare, each with a degree behind it if it is not to run "
       "with all Degrees: `finite cell, weighted cell, tetrahedra 1, tetrahedra 2`.");
-    prm.add_parameter("Degrees", degrees, "List of degrees; Discretization/Degree if empty.");
+    const auto numbers = [](const int smallest) {
+      return dealii::Patterns::List(dealii::Patterns::Integer(smallest));
+    };
+    prm.add_parameter("Degrees", degrees, "List of degrees; Discretization/Degree if empty.",
+                      numbers(1));
     prm.add_parameter("Cells", cells,
                       "List of numbers of cells across the shortest side; tetrahedra get edges of "
-                      "that size.");
-    prm.add_parameter("Cut levels", cut_levels, "List of levels, for the methods that cut cells.");
+                      "that size.",
+                      numbers(1));
+    prm.add_parameter("Cut levels", cut_levels, "List of levels, for the methods that cut cells.",
+                      numbers(0));
     prm.add_parameter("Reference", reference,
                       "Settings, separated by semicolons, of a run whose displacement all others "
                       "are measured against: `Discretization/Method = tetrahedra; "
@@ -66,6 +91,7 @@ namespace softcell
     in_section(prm, "Discretization", [&] { discretization.add_parameters(prm); });
     in_section(prm, "Loads", [&] { loads.add_parameters(prm); });
     in_section(prm, "Solver", [&] {
+      procedure.add_parameters(prm);
       newton.add_parameters(prm);
       load_steps.add_parameters(prm);
       linear_solver.add_parameters(prm);
@@ -74,6 +100,37 @@ namespace softcell
     in_section(prm, "Output", [&] { output.add_parameters(prm); });
     in_section(prm, "Study", [&] { study.add_parameters(prm); });
   }
+
+  namespace
+  {
+    /// Names must differ, and so must the columns that they get in results.csv.
+    /// @param reserved names that the section Loads uses itself.
+    void check_names(const std::string &section,
+                     const std::vector<ParameterFile::Entry> &entries,
+                     const std::vector<std::string> &reserved = {})
+    {
+      std::vector<std::string> taken;
+      for (const auto &[name, value] : entries)
+      {
+        const std::string entry = section + "/" + name + " = '" + value + "'";
+        if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
+          throw BadInput(entry + " has a name that Loads uses for itself; give it another one.");
+        if (std::find(taken.begin(), taken.end(), name) != taken.end())
+          throw BadInput(entry + " has the name of another entry; give it a name of its own.");
+        taken.push_back(name);
+      }
+    }
+
+    /// On a surface, a section `Material PATCH` says that its closed parts are filled.
+    void add_material_patches(Parameters &parameters)
+    {
+      std::vector<unsigned int> &labels = parameters.geometry.labels;
+      for (const auto &[name, material] : parameters.label_materials)
+        if (name.size() < 9 && name.find_first_not_of("0123456789") == std::string::npos &&
+            std::find(labels.begin(), labels.end(), std::stoul(name)) == labels.end())
+          labels.push_back(std::stoul(name));
+    }
+  } // namespace
 
   Parameters read_parameters(const std::string &file, const std::vector<std::string> &settings)
   {
@@ -100,6 +157,16 @@ namespace softcell
       if (is_final)
         parameters.entries = all_parameters(prm);
     }
+    if (parameters.geometry.type == "surface")
+      add_material_patches(parameters);
+
+    dealii::ParameterHandler loads;
+    parameters.loads.add_parameters(loads);
+    std::vector<std::string> load_entries = {"gravity"}; // that is the weight's columns
+    for (const auto &[name, value] : all_parameters(loads))
+      load_entries.push_back(name);
+    check_names("Regions", parameters.regions, load_entries);
+    check_names("Probes", parameters.probes);
     return parameters;
   }
 } // namespace softcell

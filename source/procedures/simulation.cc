@@ -8,7 +8,7 @@
 #include <softcell/discretization/evaluation.h>
 #include <softcell/discretization/methods.h>
 #include <softcell/output/checkpoint.h>
-#include <softcell/output/solution.h>
+#include <softcell/procedures/expected_memory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +34,13 @@ namespace softcell
         unused.erase(name);
       }
       if (!unused.empty())
+      {
+        std::string names;
+        for (unsigned int label = 0; label < body.n_labels(); ++label)
+          names += (label == 0 ? "" : ", ") + body.label_name(label);
         throw BadInput("There is a section 'Material " + unused.begin()->first +
-                       "', but the body has no such label.");
+                       "', but the body has no such label; it has: " + names + ".");
+      }
       return materials;
     }
 
@@ -100,6 +105,8 @@ namespace softcell
         probes_(probe_points(parameters))
   {
     const std::vector<LoadDescription> loads = parse_loads(parameters.load_entries, regions_);
+    parameters.load_steps.n_steps(); // throws if it is no number
+    check_memory(parameters, body, MPI_COMM_WORLD);
 
     const Timers::Scope scope(timers_, "setup");
     std::vector<std::string> remarks;
@@ -120,6 +127,8 @@ namespace softcell
     check_probes();
     model_ = std::make_unique<Model>(*discretization_, materials_, *loads_,
                                      parameters.linear_solver, timers_);
+    if (!parameters.procedure.start_from.empty())
+      start_from(parameters.procedure.start_from);
   }
 
   Simulation::~Simulation() = default;
@@ -143,27 +152,57 @@ namespace softcell
     throw BadInput(text.str());
   }
 
-  bool Simulation::solve()
+  void Simulation::start_from(const std::string &checkpoint)
   {
+    start_ = read_checkpoint(checkpoint, *discretization_, displacement_);
+    try
+    {
+      model_->elasticity().energy(displacement_);
+    }
+    catch (const InvertedPoint &)
+    {
+      throw BadInput("The checkpoint '" + checkpoint +
+                     "' turns a part of the body inside out, where the material has no stress; "
+                     "start from another one.");
+    }
+  }
+
+  bool Simulation::solve(const std::filesystem::path &folder)
+  {
+    std::string step_text;
+    unsigned int n_iterations = 0, n_accepted = 0;
+    double residual       = 0;
     const auto begin_step = [&](const LoadStep &step) {
+      if (step.attempt > 1)
+        console_.say(step_text + ": failed after " + std::to_string(n_iterations) + " iterations");
       std::ostringstream text;
       text << "  load " << std::setprecision(4) << step.from << " -> " << step.to;
-      if (step.attempt > 1)
-        text << " (attempt " << step.attempt << ')';
-      console_.say(text.str());
+      step_text    = text.str();
+      n_iterations = 0;
+      console_.progress(step_text);
     };
     const auto report = [&](const NewtonIteration &iteration) {
+      n_iterations = iteration.iteration;
+      residual     = iteration.residual;
       std::ostringstream text;
-      text << "    iteration " << std::setw(2) << iteration.iteration << ": residual "
+      text << step_text << ", iteration " << iteration.iteration << ": residual "
            << in_digits(iteration.residual) << ", update " << in_digits(iteration.update)
            << ", step " << std::setprecision(3) << iteration.step << ", "
            << iteration.linear_iterations << " linear iterations";
-      console_.say(text.str());
+      console_.progress(text.str());
+    };
+    const auto accepted = [&](const LoadStep &step, const Vector &) {
+      console_.say(step_text + ": " + std::to_string(n_iterations) + " iterations, residual " +
+                   in_digits(residual));
+      const unsigned int every = parameters_.output.every;
+      if (every > 0 && ++n_accepted % every == 0)
+        write_state(folder, step.to);
     };
     const Timers::Scope scope(timers_, "solve");
     history_ = follow_load(
       model_->equations(), parameters_.newton, parameters_.load_steps,
-      [&](const double t) { model_->set_load(t); }, displacement_, begin_step, report);
+      [&](const double t) { model_->set_load(t); }, displacement_, begin_step, report, accepted,
+      start_);
     return history_.converged;
   }
 
@@ -191,7 +230,7 @@ namespace softcell
     row.set("linear_iterations", history_.linear_iterations);
     row.set("setup_s", timers_.seconds("setup"));
     row.set("assembly_s", timers_.mean("assembly"));
-    row.set("solve_s", timers_.seconds("solve"));
+    row.set("solve_s", timers_.seconds("solve") - timers_.seconds("states"));
     row.set("total_s", timers_.total());
     row.set("peak_rss_mib", peak_rss_mib(MPI_COMM_WORLD));
     row.set("volume", elasticity.volume());
@@ -201,6 +240,8 @@ namespace softcell
     row.set("converged", history_.converged);
     row.set("load_factor", history_.reached);
     row.set("cell_size", cell_size());
+    if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
+      row.set("load_energy", energy);
 
     const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const PointValues at_probes =
@@ -231,16 +272,13 @@ namespace softcell
            parameters.grid.cells[0];
   }
 
-  void Simulation::write(const std::filesystem::path &folder) const
+  void Simulation::write(const std::filesystem::path &folder)
   {
-    const Timers::Scope scope(timers_, "output");
-    const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    on_root(MPI_COMM_WORLD, [&] { make_folder(folder.string()); });
-    if (parameters_.output.volume)
-      SolutionWriter(*discretization_, (folder / "solution").string())
-        .write(history_.reached, displacement_, model_->elasticity().averages(displacement_));
+    write_state(folder, history_.reached);
     if (parameters_.output.surface)
     {
+      const Timers::Scope scope(timers_, "surface");
+      const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
       const PointValues values =
         evaluate(*discretization_, displacement_,
                  is_root ? body_.surface().vertices() : std::vector<Point>(), reach());
@@ -249,8 +287,25 @@ namespace softcell
                                values.displacements);
       });
     }
+    timers_.print(console_);
+  }
+
+  void Simulation::write_state(const std::filesystem::path &folder, const double load_factor)
+  {
+    if (load_factor == written_)
+      return;
+    const Timers::Scope scope(timers_, "states");
+    on_root(MPI_COMM_WORLD, [&] { make_folder(folder.string()); });
+    if (parameters_.output.volume)
+    {
+      if (!states_)
+        states_ =
+          std::make_unique<SolutionWriter>(*discretization_, (folder / "solution").string());
+      states_->write(load_factor, displacement_, model_->elasticity().averages(displacement_));
+    }
     if (parameters_.output.checkpoint)
       write_checkpoint((folder / "checkpoint.h5").string(), *discretization_, displacement_,
-                       history_.reached);
+                       load_factor);
+    written_ = load_factor;
   }
 } // namespace softcell

@@ -41,19 +41,21 @@ namespace softcell
                           Vector &u,
                           const std::function<void(const LoadStep &)> &report_step,
                           const std::function<void(const NewtonIteration &)> &report_iteration,
-                          const std::function<void(const LoadStep &, const Vector &)> &accepted)
+                          const std::function<void(const LoadStep &, const Vector &)> &accepted,
+                          const double start)
   {
     constexpr unsigned int easy = 6; // Newton iterations
+    constexpr double round_off  = 1e-9;
     const unsigned int n_steps  = parameters.n_steps();
     const double largest_step   = n_steps > 0 ? 1. / n_steps : 1.;
     double step                 = largest_step;
     LoadHistory history;
     Vector solution(u);
-    for (LoadStep now{1, 0., 0., 1}; history.reached < 1;)
+    history.reached = start;
+    for (LoadStep now{1, 0., 0., 1}; !history.converged;)
     {
-      constexpr double round_off = 1e-9;
-      now.from                   = history.reached;
-      now.to                     = now.from + step < 1 - round_off ? now.from + step : 1.;
+      now.from = history.reached;
+      now.to   = now.from + step < 1 - round_off ? now.from + step : 1.;
       set_load(now.to);
       if (report_step)
         report_step(now);
@@ -63,8 +65,9 @@ namespace softcell
       history.linear_iterations += result.linear_iterations;
       if (result.converged)
       {
-        solution        = u;
-        history.reached = now.to;
+        solution          = u;
+        history.reached   = now.to;
+        history.converged = now.to >= 1;
         ++history.load_steps;
         if (accepted)
           accepted(now, u);
@@ -77,7 +80,7 @@ namespace softcell
         u    = solution;
         step = (now.to - now.from) / 2;
         ++now.attempt;
-        if (step < parameters.smallest)
+        if (step < std::max(parameters.smallest, round_off))
         {
           std::ostringstream reason;
           reason << "a step of " << now.to - now.from << " of the load from " << now.from
@@ -87,7 +90,6 @@ namespace softcell
         }
       }
     }
-    history.converged = history.reached >= 1;
     set_load(history.reached);
     return history;
   }

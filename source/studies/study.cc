@@ -7,6 +7,7 @@
 #include <softcell/base/files.h>
 #include <softcell/output/results.h>
 #include <softcell/output/run_record.h>
+#include <softcell/procedures/expected_memory.h>
 #include <softcell/procedures/simulation.h>
 #include <softcell/studies/difference.h>
 
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace softcell
@@ -36,6 +38,16 @@ namespace softcell
       return items.empty() ? std::vector<std::string>{""} : items;
     }
 
+    /// The same of whole numbers, each written in one way only.
+    std::vector<std::string> numbers(const std::string &text)
+    {
+      std::vector<std::string> items = list_or_blank(text);
+      for (std::string &item : items)
+        if (!item.empty())
+          item = std::to_string(dealii::Utilities::string_to_int(item));
+      return items;
+    }
+
     /// `tetrahedra 2` as method and degree; an empty degree if none is given.
     std::pair<std::string, std::string> method_and_degree(const std::string &text)
     {
@@ -45,27 +57,6 @@ namespace softcell
       return {dealii::Utilities::trim(text.substr(0, end + 1)), text.substr(end + 1)};
     }
 
-    /// Adds the difference to the reference to a row, and the rate at which it fell since the last
-    /// row of the same method, degree and levels.
-    void add_errors(const Simulation &reference,
-                    const Simulation &simulation,
-                    std::map<std::string, ResultsRow> &last_of_series,
-                    ResultsRow &row)
-    {
-      const Difference error =
-        difference(simulation.discretization(), simulation.displacement(),
-                   reference.discretization(), reference.displacement(), simulation.reach());
-      row.set("relative_l2_error", error.relative_l2);
-      row.set("relative_h1_error", error.relative_h1);
-
-      ResultsRow &last =
-        last_of_series[row.get("method") + row.get("degree") + '/' + row.get("cut_levels")];
-      const double refinement = last.number("cell_size") / row.number("cell_size");
-      if (refinement > 1)
-        row.set("observed_rate", std::log(last.number("relative_l2_error") / error.relative_l2) /
-                                   std::log(refinement));
-      last = row;
-    }
   } // namespace
 
   std::vector<StudyCase> study_cases(const Parameters &parameters)
@@ -77,11 +68,11 @@ namespace softcell
       const auto [named_method, own_degree] = method_and_degree(item);
       const std::string method = item.empty() ? parameters.discretization.method : named_method;
       const auto degrees =
-        own_degree.empty() ? list_or_blank(study.degrees) : std::vector<std::string>{own_degree};
+        own_degree.empty() ? numbers(study.degrees) : std::vector<std::string>{own_degree};
       const auto levels =
-        has_cut_levels(method) ? list_or_blank(study.cut_levels) : std::vector<std::string>{""};
+        has_cut_levels(method) ? numbers(study.cut_levels) : std::vector<std::string>{""};
       for (const std::string &degree : degrees)
-        for (const std::string &cells : list_or_blank(study.cells))
+        for (const std::string &cells : numbers(study.cells))
           for (const std::string &level : levels)
           {
             StudyCase one{method, {}};
@@ -102,8 +93,260 @@ namespace softcell
             cases.push_back(one);
           }
     }
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (cases[i].name == cases[k].name)
+          throw BadInput("Study asks for the case " + cases[i].name +
+                         " twice; remove one from its lists.");
     return cases;
   }
+
+  namespace
+  {
+    /// The cases of a parameter file and what they have in common.
+    class Study
+    {
+    public:
+      Study(const std::string &file,
+            const std::vector<std::string> &settings,
+            const std::vector<std::string> &command_line,
+            Console &console);
+
+      bool has_one_run() const
+      {
+        return cases_.size() == 1 && !reference_parameters_;
+      }
+
+      /// Builds every run, so that a mistake in the last one shows at once; the reference stays.
+      void check();
+
+      /// Solves all. @return 0, or 2 if a case did not converge.
+      int run();
+
+    private:
+      std::unique_ptr<Simulation> build_reference() const;
+      std::unique_ptr<Simulation> build_case(unsigned int i, const std::string &what) const;
+      void solve_reference();
+      /// Solves, writes and returns whether it converged.
+      bool solve_case(unsigned int i, Simulation &simulation);
+      void solve_all();
+      /// Adds the difference to the reference to a row, and the rate at which it fell since the
+      /// last row of the same method, degree and levels.
+      void add_errors(const Simulation &simulation, ResultsRow &row);
+      void say_what_is_left(unsigned int n_done) const;
+      /// From now on there is a folder. Collective.
+      void begin();
+      void write_record(const std::string &status, const std::string &message);
+
+      Console &console_;
+      Parameters parameters_;
+      std::vector<StudyCase> cases_;
+      std::vector<Parameters> case_parameters_;
+      std::optional<Parameters> reference_parameters_;
+      std::filesystem::path folder_;
+      std::unique_ptr<Body> body_;
+      std::unique_ptr<Simulation> reference_;
+      std::unique_ptr<ResultsTable> table_; // once there is a folder
+      std::map<std::string, ResultsRow> last_of_series_;
+      unsigned int n_failed_ = 0;
+      RunRecord record_;
+      Timers timers_;
+    };
+
+    /// Reads the file with more settings, of which `what` says where they come from.
+    Parameters read_run(const std::string &file,
+                        std::vector<std::string> settings,
+                        const std::vector<std::string> &more,
+                        const std::string &what)
+    {
+      settings.insert(settings.end(), more.begin(), more.end());
+      try
+      {
+        return read_parameters(file, settings);
+      }
+      catch (const BadInput &error)
+      {
+        throw BadInput(more.empty() ? error.what() : what + ": " + error.what());
+      }
+    }
+
+    Study::Study(const std::string &file,
+                 const std::vector<std::string> &settings,
+                 const std::vector<std::string> &command_line,
+                 Console &console)
+        : console_(console),
+          parameters_(read_parameters(file, settings)),
+          cases_(study_cases(parameters_))
+    {
+      for (const StudyCase &one : cases_)
+        case_parameters_.push_back(read_run(file, settings, one.settings, "Study"));
+      if (const std::string &reference = parameters_.study.reference; !reference.empty())
+        reference_parameters_ = read_run(file, settings, list(reference, ';'), "Study/Reference");
+
+      folder_              = parameters_.output.directory.empty()
+                               ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
+                               : std::filesystem::path(parameters_.output.directory);
+      record_.command_line = "softcell";
+      for (const std::string &word : command_line)
+        record_.command_line += ' ' + word;
+      record_.ranks      = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      record_.parameters = parameters_.entries;
+
+      console_.say("Body: " + parameters_.geometry.type + ' ' + parameters_.geometry.file);
+      body_ = make_body(parameters_.geometry, record_.remarks);
+      for (const std::string &remark : record_.remarks)
+        console_.say("  " + remark);
+    }
+
+    std::unique_ptr<Simulation> Study::build_reference() const
+    {
+      console_.say("Reference: " + parameters_.study.reference);
+      return std::make_unique<Simulation>("reference", *reference_parameters_, *body_, console_);
+    }
+
+    std::unique_ptr<Simulation> Study::build_case(const unsigned int i,
+                                                  const std::string &what) const
+    {
+      console_.say(what + ' ' + std::to_string(i + 1) + " of " + std::to_string(cases_.size()) +
+                   ": " + cases_[i].name);
+      return std::make_unique<Simulation>(cases_[i].name, case_parameters_[i], *body_, console_);
+    }
+
+    void Study::check()
+    {
+      for (const Parameters &parameters : case_parameters_)
+        check_memory(parameters, *body_, MPI_COMM_WORLD);
+      if (reference_parameters_)
+        reference_ = build_reference();
+      for (unsigned int i = 0; i < cases_.size(); ++i)
+        build_case(i, "Check of case");
+    }
+
+    void Study::begin()
+    {
+      write_record("running", "");
+      const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      table_ = std::make_unique<ResultsTable>(is_root ? (folder_ / "results.csv").string() : "");
+    }
+
+    void Study::write_record(const std::string &status, const std::string &message)
+    {
+      record_.status  = status;
+      record_.message = message;
+      record_.wall_s  = timers_.total();
+      on_root(MPI_COMM_WORLD, [&] {
+        make_folder(folder_.string());
+        write_run_record((folder_ / "run.json").string(), record_);
+      });
+    }
+
+    int Study::run()
+    {
+      try
+      {
+        solve_all();
+      }
+      catch (const BadInput &error)
+      {
+        if (table_)
+          write_record("failed", error.what());
+        throw;
+      }
+      catch (const NotConverged &error)
+      {
+        write_record("not converged", error.what());
+        throw;
+      }
+      catch (const std::exception &error)
+      {
+        // Perhaps on this rank alone, so that nothing collective can be done.
+        record_.status  = "failed";
+        record_.message = error.what();
+        if (table_)
+          write_run_record((folder_ / "run.json").string(), record_);
+        throw;
+      }
+      write_record(n_failed_ == 0 ? "done" : "not converged",
+                   n_failed_ == 0 ? "" : std::to_string(n_failed_) + " cases did not converge");
+      console_.say("Results: " + (folder_ / "results.csv").string());
+      return n_failed_ == 0 ? 0 : 2;
+    }
+
+    void Study::solve_all()
+    {
+      if (reference_parameters_)
+        solve_reference();
+      for (unsigned int i = 0; i < cases_.size(); ++i)
+      {
+        const auto simulation = build_case(i, "Case");
+        if (!table_) // only now: a mistake while the only case is built leaves no folder behind
+          begin();
+        n_failed_ += !solve_case(i, *simulation);
+        say_what_is_left(i + 1);
+      }
+    }
+
+    void Study::solve_reference()
+    {
+      begin();
+      if (reference_->solve(folder_ / "reference"))
+        return;
+      reference_->write(folder_ / "reference");
+      throw NotConverged("The reference did not converge: " + reference_->reason() + ".");
+    }
+
+    bool Study::solve_case(const unsigned int i, Simulation &simulation)
+    {
+      const std::filesystem::path folder = cases_.size() == 1 ? folder_ : folder_ / cases_[i].name;
+      const bool is_solved               = simulation.solve(folder);
+      if (!is_solved)
+        console_.warn("Not converged: " + simulation.reason() + ".");
+      ResultsRow row = simulation.row();
+      if (reference_)
+        add_errors(simulation, row);
+      on_root(MPI_COMM_WORLD, [&] { table_->add(row); });
+      record_.linear_residuals.emplace_back(cases_[i].name, simulation.linear_residuals());
+      simulation.write(folder);
+      return is_solved;
+    }
+
+    void Study::add_errors(const Simulation &simulation, ResultsRow &row)
+    {
+      const Difference error =
+        difference(simulation.discretization(), simulation.displacement(),
+                   reference_->discretization(), reference_->displacement(), simulation.reach());
+      row.set("relative_l2_error", error.relative_l2);
+      row.set("relative_h1_error", error.relative_h1);
+      if (error.missed > 0)
+      {
+        std::ostringstream text;
+        text.precision(2);
+        text << row.get("case") << ": the errors leave out " << 100 * error.missed
+             << " % of the reference's volume, which no cell is near; give more cells.";
+        console_.warn(text.str());
+        record_.remarks.push_back(text.str());
+      }
+
+      ResultsRow &last =
+        last_of_series_[row.get("method") + row.get("degree") + '/' + row.get("cut_levels")];
+      const double refinement = last.number("cell_size") / row.number("cell_size");
+      if (refinement > 1)
+        row.set("observed_rate", std::log(last.number("relative_l2_error") / error.relative_l2) /
+                                   std::log(refinement));
+      last = row;
+    }
+
+    void Study::say_what_is_left(const unsigned int n_done) const
+    {
+      if (n_done == cases_.size())
+        return;
+      std::ostringstream text;
+      text.precision(0);
+      text << std::fixed << "  about " << timers_.total() / n_done * (cases_.size() - n_done)
+           << " s left if the other cases take as long";
+      console_.say(text.str());
+    }
+  } // namespace
 
   int run_study(const std::string &file,
                 const std::vector<std::string> &settings,
@@ -111,104 +354,9 @@ namespace softcell
                 const bool is_check,
                 Console &console)
   {
-    const auto with = [&](const std::vector<std::string> &more) {
-      std::vector<std::string> all = settings;
-      all.insert(all.end(), more.begin(), more.end());
-      return all;
-    };
-    const Parameters parameters        = read_parameters(file, settings);
-    const std::vector<StudyCase> cases = study_cases(parameters);
-
-    // Every case is read before the first is solved: a mistake in the last one shows at once.
-    std::vector<Parameters> case_parameters;
-    for (const StudyCase &one : cases)
-      case_parameters.push_back(read_parameters(file, with(one.settings)));
-
-    const std::filesystem::path folder =
-      parameters.output.directory.empty()
-        ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
-        : std::filesystem::path(parameters.output.directory);
-    const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-
-    RunRecord record;
-    record.command_line = "softcell";
-    for (const std::string &word : command_line)
-      record.command_line += ' ' + word;
-    record.ranks      = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    record.parameters = parameters.entries;
-
-    Timers timers;
-    const auto write_record = [&] {
-      record.wall_s = timers.total();
-      on_root(MPI_COMM_WORLD, [&] {
-        make_folder(folder.string());
-        write_run_record((folder / "run.json").string(), record);
-      });
-    };
-    console.say("Body: " + parameters.geometry.type + ' ' + parameters.geometry.file);
-    const std::unique_ptr<Body> body = make_body(parameters.geometry, record.remarks);
-    for (const std::string &remark : record.remarks)
-      console.say("  " + remark);
-
-    std::unique_ptr<Simulation> reference;
-    if (!parameters.study.reference.empty())
-    {
-      console.say("Reference: " + parameters.study.reference);
-      const Parameters settings_of_reference =
-        read_parameters(file, with(list(parameters.study.reference, ';')));
-      reference = std::make_unique<Simulation>("reference", settings_of_reference, *body, console);
-      if (!is_check && !reference->solve())
-      {
-        record.status  = "not converged";
-        record.message = "The reference did not converge: " + reference->reason() + ".";
-        write_record();
-        reference->write(folder / "reference");
-        throw NotConverged(record.message);
-      }
-    }
-
-    std::unique_ptr<ResultsTable> table;
-    std::map<std::string, ResultsRow> last_of_series;
-    unsigned int n_failed = 0;
-    for (unsigned int i = 0; i < cases.size(); ++i)
-    {
-      console.say("Case " + std::to_string(i + 1) + " of " + std::to_string(cases.size()) + ": " +
-                  cases[i].name);
-      Simulation simulation(cases[i].name, case_parameters[i], *body, console);
-      if (is_check)
-        continue;
-      if (!table)
-      {
-        // Only now: a mistake that shows while the first case is built leaves no folder behind.
-        write_record();
-        table = std::make_unique<ResultsTable>(is_root ? (folder / "results.csv").string() : "");
-      }
-      if (!simulation.solve())
-      {
-        console.warn("Not converged: " + simulation.reason() + ".");
-        ++n_failed;
-      }
-      ResultsRow row = simulation.row();
-      if (reference)
-        add_errors(*reference, simulation, last_of_series, row);
-      on_root(MPI_COMM_WORLD, [&] { table->add(row); });
-      simulation.write(cases.size() == 1 ? folder : folder / cases[i].name);
-      if (i + 1 < cases.size())
-      {
-        const double left = timers.total() / (i + 1) * (cases.size() - i - 1);
-        std::ostringstream text;
-        text.precision(0);
-        text << std::fixed << "  about " << left << " s left if the other cases take as long";
-        console.say(text.str());
-      }
-    }
-    if (is_check)
-      return 0;
-
-    record.status  = n_failed == 0 ? "done" : "not converged";
-    record.message = n_failed == 0 ? "" : std::to_string(n_failed) + " cases did not converge";
-    write_record();
-    console.say("Results: " + (folder / "results.csv").string());
-    return n_failed == 0 ? 0 : 2;
+    Study study(file, settings, command_line, console);
+    if (is_check || !study.has_one_run())
+      study.check();
+    return is_check ? 0 : study.run();
   }
 } // namespace softcell

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 using namespace softcell;
 
@@ -25,6 +27,25 @@ TEST(Checkpoint, ReadsBack)
     EXPECT_EQ(v.local_element(i), u.local_element(i));
   MPI_Barrier(MPI_COMM_WORLD);
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    std::remove("checkpoint_test.h5");
+}
+
+TEST(Checkpoint, RefusesWhatIsTruncatedOrNoNumber)
+{
+  const test::OneTetrahedronPerRank cells;
+  Vector u = cells.make_vector();
+  write_checkpoint("checkpoint_test.h5", cells, u, 0.75);
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  if (is_root)
+    std::filesystem::resize_file("checkpoint_test.h5",
+                                 std::filesystem::file_size("checkpoint_test.h5") / 2);
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_THROW(read_checkpoint("checkpoint_test.h5", cells, u), BadInput);
+  u.local_element(0) = std::nan("");
+  write_checkpoint("checkpoint_test.h5", cells, u, 0.75);
+  EXPECT_THROW(read_checkpoint("checkpoint_test.h5", cells, u), BadInput);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (is_root)
     std::remove("checkpoint_test.h5");
 }
 

@@ -20,6 +20,8 @@ TEST(RunRecord, IsJsonAndKeepsEveryCharacter)
   record.parameters   = {{"Geometry/File", "a.b/c\nd"}, {"Material/Model", "linear"}};
   record.remarks      = {"one", "two, three"};
 
+  record.linear_residuals = {{"a", {1, 0.25}}, {"b", {}}};
+
   std::istringstream text(json(record));
   boost::property_tree::ptree tree;
   boost::property_tree::read_json(text, tree);
@@ -29,6 +31,9 @@ TEST(RunRecord, IsJsonAndKeepsEveryCharacter)
   EXPECT_EQ(tree.get<double>("wall_s"), 1.25);
   EXPECT_EQ(tree.get_child("parameters").front().second.data(), "a.b/c\nd");
   EXPECT_EQ(tree.get_child("parameters").size(), 2u);
+  EXPECT_EQ(tree.get_child("linear_residuals.a").size(), 2u);
+  EXPECT_EQ(tree.get_child("linear_residuals.a").back().second.get_value<double>(), 0.25);
+  EXPECT_EQ(tree.get_child("linear_residuals").size(), 2u);
   EXPECT_EQ(tree.get_child("remarks").back().second.data(), "two, three");
   EXPECT_EQ(tree.get_child("libraries").find("deal.II")->second.data().substr(0, 2), "9.");
   EXPECT_FALSE(tree.get<std::string>("host").empty());

@@ -52,7 +52,7 @@ namespace
     Solved solved;
     solved.body       = make_body(parameters.geometry, remarks);
     solved.simulation = std::make_unique<Simulation>("test", parameters, *solved.body, console);
-    EXPECT_TRUE(solved.simulation->solve()) << solved.simulation->reason();
+    EXPECT_TRUE(solved.simulation->solve("")) << solved.simulation->reason();
     solved.row = solved.simulation->row();
     return solved;
   }
@@ -197,6 +197,14 @@ TEST(Simulation, strain_energy_is_the_work_of_the_loads)
   p.load_entries       = {{"base", "clamp"}, {"top", "displacement 0, 0, 0.2"}};
   const ResultsRow row = solve(p).row;
   EXPECT_NEAR(row.number("strain_energy"), row.number("top_fz") * 0.2 / 2, 1e-9);
+
+  p.load_entries         = {{"base", "clamp"}, {"top", "traction 0, 0, 30"}};
+  const ResultsRow force = solve(p).row;
+  EXPECT_GT(force.number("strain_energy"), 0.1);
+  EXPECT_NEAR(force.number("strain_energy"), -force.number("load_energy") / 2, 1e-9);
+
+  p.load_entries.push_back({"top", "pressure 1"}); // which has no potential
+  EXPECT_EQ(solve(p).row.get("load_energy"), "");
 }
 
 TEST(Simulation, free_body_is_refused)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the whole program and checks what it prints, returns and writes.
 
-usage: run_program.py SOFTCELL GROUP     with a GROUP of command_line, bad_input, ranks, methods
+usage: run_program.py SOFTCELL GROUP     with a GROUP of command_line, bad_input, ranks, checkpoints, methods
 """
 import csv
 import json
@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 from bad_inputs import BAD_INPUTS, write_files
 
@@ -149,6 +150,11 @@ def bad_input(folder):
               f"{name}: not one sentence: {error}")
         check(not (folder / "out").exists(), f"{name}: something was written")
         shutil.rmtree(folder / "out", ignore_errors=True)
+    status, _, error = softcell("base.prm", "--output", "base.prm", folder=folder)
+    check(status == 1 and "base.prm" in error and error.count("\n") == 1, f"file for a folder: {status} {error}")
+    (folder / "crlf.prm").write_bytes(b"\xef\xbb\xbf" + BAR.replace("\n", "\r\n").encode())
+    status, _, error = softcell("crlf.prm", "--check", folder=folder)
+    check(status == 0, f"the line ends and the byte order mark of other systems are read: {status} {error}")
     (folder / "good.prm").write_text(GOOD_SURFACE)
     for file, warning in (("good.off", False), ("inside_out.off", True)):
         status, out, error = softcell("good.prm", "--check", "--set", f"Geometry/File = {file}", folder=folder)
@@ -188,6 +194,47 @@ def ranks(folder):
             same_row(results[0], row, 1e-8, f"{method} on {n} ranks")
 
 
+def checkpoints(folder):
+    """A run that was killed goes on to the same row, and what does not fit is refused."""
+    (folder / "bar.prm").write_text(BAR + """
+subsection Output
+  set Checkpoint = true
+  set Every      = 2
+end
+""")
+    steps = ("--set", "Solver/Load steps = 40")
+    status, _, error = softcell("bar.prm", *steps, "--output", "whole", folder=folder)
+    check(status == 0, f"run with states: {status} {error}")
+    states = (folder / "whole" / "solution.pvd").read_text()
+    check([f'timestep="{t}"' in states for t in (0.05, 0.025, 1)] == [True, False, True] and states.count("file=") == 20,
+          f"every second load step is a state: {states}")
+
+    run = subprocess.Popen([PROGRAM, "bar.prm", *steps, "--output", "killed"], cwd=folder, stdout=subprocess.DEVNULL)
+    while run.poll() is None and not (folder / "killed" / "checkpoint.h5").exists():
+        time.sleep(0.001)
+    run.kill()
+    run.wait()
+    check(not (folder / "killed" / "results.csv").exists(), "the run was killed before its end")
+    record = json.loads((folder / "killed" / "run.json").read_text())
+    check(record["status"] == "running", f"a killed run is marked as running: {record['status']}")
+    for ranks_now in (1, 2):
+        status, out, error = softcell("bar.prm", *steps, "--output", f"on{ranks_now}", "--set",
+                                      "Solver/Start from = killed/checkpoint.h5", folder=folder, ranks=ranks_now)
+        check(status == 0, f"a killed run goes on: {status} {out} {error}")
+        on = rows(folder / f"on{ranks_now}" / "results.csv")[0]
+        whole = rows(folder / "whole" / "results.csv")[0]
+        check(0 < int(on.pop("load_steps")) < int(whole.pop("load_steps")), "it takes the steps that are left")
+        same_row(whole, on, 1e-8, f"stop and go on {ranks_now} ranks")
+
+    short = (folder / "whole" / "checkpoint.h5").read_bytes()
+    (folder / "short.h5").write_bytes(short[:len(short) // 2])
+    for file, setting in (("short.h5", "Output/Every = 0"), ("whole/checkpoint.h5", "Discretization/Cells = 5")):
+        status, _, error = softcell("bar.prm", "--set", f"Solver/Start from = {file}", "--set", setting, "--output",
+                                    "out", folder=folder)
+        check(status == 1 and file in error and error.count("\n") == 1, f"{file} with {setting}: {status} {error}")
+        check(not (folder / "out").exists(), f"{file} with {setting}: something was written")
+
+
 def methods(folder):
     """A study over methods fills a row for each, and all agree on the deflection as they should on a coarse grid."""
     (folder / "study.prm").write_text(BAR + """
@@ -210,7 +257,8 @@ if len(sys.argv) != 3:
     sys.exit(__doc__)
 PROGRAM = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
-    {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "methods": methods}[sys.argv[2]](
+    {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
+     "methods": methods}[sys.argv[2]](
         pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)

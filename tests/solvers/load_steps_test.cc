@@ -45,16 +45,18 @@ namespace
       return p;
     }
 
-    LoadHistory follow(const LoadStepParameters &parameters, double &end)
+    LoadHistory follow(const LoadStepParameters &parameters, double &end, const double start = 0)
     {
       Vector u(unknowns);
+      u(0) = x           = start * target;
       const auto history = follow_load(
         problem(), {}, parameters, [this](const double factor) { t = factor; }, u,
         [this](const LoadStep &step) { attempts.push_back(step); }, {},
         [this](const LoadStep &step, const Vector &solution) {
           accepted.push_back(step);
           x = solution(0);
-        });
+        },
+        start);
       end = u(0);
       return history;
     }
@@ -122,6 +124,32 @@ namespace
     EXPECT_GT(history.reached, 0.6 - 2e-3);
     EXPECT_NEAR(end, history.reached, 1e-12);
     EXPECT_DOUBLE_EQ(equation.t, history.reached);
+  }
+
+  TEST(LoadSteps, goes_on_from_where_a_run_stopped)
+  {
+    Reach equation;
+    double end;
+    const auto history = equation.follow({"4", 1e-4}, end, 0.5);
+    EXPECT_TRUE(history.converged);
+    ASSERT_EQ(equation.accepted.size(), 2u);
+    EXPECT_DOUBLE_EQ(equation.accepted[0].from, 0.5);
+    EXPECT_DOUBLE_EQ(equation.accepted[0].to, 0.75);
+    EXPECT_NEAR(end, 1., 1e-14);
+  }
+
+  TEST(LoadSteps, solves_for_the_whole_load_once_more)
+  {
+    Reach equation;
+    double end;
+    EXPECT_TRUE(equation.follow({"4", 1e-4}, end, 1).converged);
+    ASSERT_EQ(equation.accepted.size(), 1u);
+    EXPECT_EQ(equation.accepted[0].to, 1.);
+
+    equation.barrier   = 0.5;
+    const auto history = equation.follow({"4", 0}, end, 1);
+    EXPECT_FALSE(history.converged);
+    EXPECT_EQ(history.reached, 1.);
   }
 
   TEST(LoadSteps, refuses_what_is_not_a_number)

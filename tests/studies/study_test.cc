@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <softcell/base/exceptions.h>
 #include <softcell/studies/study.h>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,19 @@ TEST(Study, settings_say_what_tells_a_case_from_the_others)
     "Discretization/Method = tetrahedra", "Discretization/Degree = 2", "Discretization/Cells = 8",
     "Discretization/Mesh size = 0"};
   EXPECT_EQ(cases[0].settings, expected);
+}
+
+TEST(Study, refuses_the_same_case_twice)
+{
+  Parameters p;
+  p.study.cells = "2, 02";
+  EXPECT_THROW(study_cases(p), BadInput);
+  p.study.cells   = "2, 3";
+  p.study.methods = "tetrahedra, tetrahedra 2";
+  p.study.degrees = "1, 2";
+  EXPECT_THROW(study_cases(p), BadInput);
+  p.study.degrees = "1";
+  EXPECT_EQ(study_cases(p).size(), 4u);
 }
 
 TEST(Study, of_nothing_is_one_case)

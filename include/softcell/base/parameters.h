@@ -47,10 +47,6 @@ namespace softcell
     /// pattern.
     void parse(dealii::ParameterHandler &prm) const;
 
-    /// FILE:LINE of an entry, or the override that sets it; FILE alone if it is not set. For
-    /// messages.
-    std::string location(const std::string &section, const std::string &entry) const;
-
   private:
     struct Item
     {

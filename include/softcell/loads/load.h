@@ -6,6 +6,7 @@
 #include <softcell/discretization/discretization.h>
 #include <softcell/mechanics/material.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,11 +31,11 @@ namespace softcell
     /// Lists of nodes that the tangent couples beyond those of single patches.
     virtual void add_couplings(std::vector<std::vector<unsigned int>> & /*couplings*/) const {}
 
-    /// Potential energy, -int f . u of a dead load and 1/2 k |u - g|^2 of a penalty; 0 where there
-    /// is none. Collective.
+    /// Potential energy, -int f . u of a dead load and 1/2 k |u - g|^2 of a penalty; NaN where
+    /// there is none. Collective. Units: J
     virtual double energy(const Vector & /*u*/, double /*t*/) const
     {
-      return 0;
+      return std::numeric_limits<double>::quiet_NaN();
     }
 
     /// The force with which this load acts on the body at (u, t): for a support, its reaction.

@@ -8,15 +8,17 @@
 
 namespace softcell
 {
-  /// Writes the data sets `positions` (n, 3) and `displacement` (n, 3) of all nodes, in m, and the
-  /// attribute `load_factor`. Rank 0 gathers and writes. Collective.
+  /// Writes the data sets `positions` (n, 3) and `displacement` (n, 3) of all nodes, in m, and
+  /// `load_factor`. Rank 0 gathers and writes; a file that stood there stays until all is written.
+  /// Collective. @throws BadInput if it cannot be written.
   void write_checkpoint(const std::string &file,
                         const Discretization &discretization,
                         const Vector &u,
                         double load_factor);
 
-  /// Fills u, ghosts too, from a checkpoint of the same discretization on any number of ranks;
-  /// nodes are told by their positions. Returns the load factor. Collective.
-  /// @throws BadInput if the file cannot be read or lacks a node.
+  /// Fills u, ghosts too, from a checkpoint that any number of ranks wrote of the same
+  /// discretization, or of one that has all of its nodes; these are told by their positions.
+  /// Returns the load factor. Collective. @throws BadInput if the file cannot be read, holds what
+  /// is no number, or lacks a node.
   double read_checkpoint(const std::string &file, const Discretization &discretization, Vector &u);
 } // namespace softcell

@@ -57,15 +57,6 @@ namespace softcell
     /// @throws BadInput if the file cannot be written.
     void add(ResultsRow row);
 
-    const std::vector<ResultsRow> &rows() const
-    {
-      return rows_;
-    }
-
-    /// Reads rows that a table wrote.
-    /// @throws BadInput
-    static std::vector<ResultsRow> read(const std::string &file);
-
   private:
     std::string file_;
     std::vector<ResultsRow> rows_;

@@ -19,6 +19,8 @@ namespace softcell
     double wall_s      = 0;
     std::vector<std::pair<std::string, std::string>> parameters; // Section/Entry and value
     std::vector<std::string> remarks;                            // what was repaired or assumed
+    std::vector<std::pair<std::string, std::vector<double>>>
+      linear_residuals; // of each case's last linear system, relative, after each iteration
   };
 
   /// The record as JSON text.

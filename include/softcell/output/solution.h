@@ -26,18 +26,11 @@ namespace softcell
     /// `cut_fraction`. Collective. Ghosted u. @throws BadInput if the files cannot be written.
     void write(double time, const Vector &u, const PatchAverages &fields);
 
-    /// The files written so far that a user would open.
-    const std::vector<std::string> &files() const
-    {
-      return files_;
-    }
-
   private:
     MPI_Comm communicator_;
     std::string stem_;
     DrawnCells cells_;
     std::vector<std::pair<double, std::string>> states_; // time and file name without its folder
-    std::vector<std::string> files_;
   };
 
   /// Writes a body's surface at its deformed place, with its displacement (m) as point data.

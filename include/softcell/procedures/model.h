@@ -45,8 +45,11 @@ namespace softcell
       return elasticity_;
     }
 
+    /// Potential energy of loads and supports; NaN if one of them has none. Units: J
+    double load_energy(const Vector &u) const;
+
     /// Linear residuals of the last solve, relative.
-    const std::vector<double> &linear_history() const
+    const std::vector<double> &linear_residuals() const
     {
       return linear_solver_->history();
     }

@@ -28,6 +28,15 @@ namespace softcell
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// What the section Solver says beside Newton's method, load steps and linear solver.
+  struct ProcedureParameters
+  {
+    std::string mode       = "static";
+    std::string start_from = ""; // a checkpoint; empty: the body at rest
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// Section Output.
   struct OutputParameters
   {
@@ -35,6 +44,7 @@ namespace softcell
     bool volume           = true;  // solution.pvd
     bool surface          = true;  // surface.vtp
     bool checkpoint       = false; // HDF5
+    unsigned int every    = 0;     // load steps between two states; 0: the last state alone
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
@@ -63,6 +73,7 @@ namespace softcell
     DiscretizationParameters discretization;
     LoadParameters loads;
     std::vector<ParameterFile::Entry> load_entries;
+    ProcedureParameters procedure;
     NewtonParameters newton;
     LoadStepParameters load_steps;
     LinearSolverParameters linear_solver;

@@ -5,6 +5,7 @@
 #include <softcell/base/console.h>
 #include <softcell/geometry/body.h>
 #include <softcell/output/results.h>
+#include <softcell/output/solution.h>
 #include <softcell/procedures/model.h>
 #include <softcell/procedures/parameters.h>
 #include <softcell/solvers/load_steps.h>
@@ -28,9 +29,11 @@ namespace softcell
                Console &console);
     ~Simulation();
 
-    /// Follows the load to its end. False if that was not reached: then the displacement is that of
-    /// the last load step that converged, and reason() says what stopped it.
-    bool solve();
+    /// Follows the load to its end, from where `Start from` says. False if that was not reached:
+    /// then the displacement is that of the last load step that converged, and reason() says what
+    /// stopped it.
+    /// @param folder for the states that `Every` asks for.
+    bool solve(const std::filesystem::path &folder);
 
     const std::string &reason() const
     {
@@ -51,12 +54,24 @@ namespace softcell
     /// What results.csv says of this case.
     ResultsRow row() const;
 
-    /// Writes the solution files that section Output asks for.
-    void write(const std::filesystem::path &folder) const;
+    /// Relative residuals of the last linear system, after each iteration.
+    const std::vector<double> &linear_residuals() const
+    {
+      return model_->linear_residuals();
+    }
+
+    /// Writes the last state, as section Output asks for, and says what took how long.
+    void write(const std::filesystem::path &folder);
 
   private:
     /// @throws BadInput if a probe is beyond reach().
     void check_probes() const;
+
+    /// Takes displacement and load factor from a checkpoint. @throws BadInput
+    void start_from(const std::string &checkpoint);
+
+    /// Adds the state at a load factor to solution.pvd and makes it the checkpoint, once.
+    void write_state(const std::filesystem::path &folder, double load_factor);
 
     /// Nominal edge of a cell, by which rates are observed. Units: m
     double cell_size() const;
@@ -74,6 +89,9 @@ namespace softcell
     std::unique_ptr<Loads> loads_;
     std::unique_ptr<Model> model_;
     Vector displacement_;
+    double start_ = 0; // load factor
     LoadHistory history_;
+    std::unique_ptr<SolutionWriter> states_;
+    double written_ = -1; // load factor of the last state
   };
 } // namespace softcell

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Following a load from 0 to 1 in steps that grow and cut back.
+// Following a load to 1 in steps that grow and cut back.
 #pragma once
 
 #include <softcell/solvers/newton.h>
@@ -38,7 +38,7 @@ namespace softcell
     std::string reason; // why it stopped short
   };
 
-  /// Solves r(u; t) = 0 at load factors t from 0 to 1, each from the solution before.
+  /// Solves r(u; t) = 0 at load factors t from `start` to 1, each from the solution before.
   ///
   /// With a number n of steps, a step that fails is halved and the run goes on with the smaller
   /// step; adaptive runs start with the whole load. Both double the step after an easy one, up to
@@ -49,6 +49,7 @@ namespace softcell
   /// that was reached.
   /// @param u changed to the solution at the load factor reached.
   /// @param accepted called after each converged step.
+  /// @param start load factor of u as it comes; from 1, the whole load is solved for once more.
   /// @throws BadInput if `steps` is neither a number from 1 on nor `adaptive`
   LoadHistory
   follow_load(const NonlinearProblem &problem,
@@ -58,5 +59,6 @@ namespace softcell
               Vector &u,
               const std::function<void(const LoadStep &)> &report_step              = {},
               const std::function<void(const NewtonIteration &)> &report_iteration  = {},
-              const std::function<void(const LoadStep &, const Vector &)> &accepted = {});
+              const std::function<void(const LoadStep &, const Vector &)> &accepted = {},
+              double start                                                          = 0);
 } // namespace softcell

@@ -19,6 +19,7 @@ namespace softcell
 
   /// The cases of section Study: all combinations, with cut levels only for the methods that have
   /// them. A study of nothing has one case, named after its method.
+  /// @throws BadInput if two are the same.
   std::vector<StudyCase> study_cases(const Parameters &parameters);
 
   /// Runs all cases of a parameter file and writes results.csv, run.json and the solutions.
@@ -26,7 +27,8 @@ namespace softcell
   ///
   /// With a reference, every row gets the relative L2 and H1 difference to the reference's
   /// displacement over the reference's body, and from the second size of a method on, the observed
-  /// rate of the first.
+  /// rate of the first. Where there is more than one run, all are built before the first is solved,
+  /// so that a mistake in the last one shows at once.
   ///
   /// @param settings from the command line, each `Section/Entry = value`.
   /// @param is_check build everything, say how large it is, solve and write nothing.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How much memory a run will take, before anything is built.
+#pragma once
+
+#include <softcell/procedures/parameters.h>
+
+namespace softcell
+{
+  /// Bytes of memory that a run takes beside the program itself.
+  struct ExpectedMemory
+  {
+    double shared  = 0; // by all ranks together
+    double by_each = 0; // by every rank
+  };
+
+  /// From the expected size of the discretization, with the bytes that its parts, the tangent and
+  /// the linear solver were measured to take; within about a third. @throws BadInput
+  ExpectedMemory expected_memory(const Parameters &parameters, const Body &body);
+
+  /// @throws BadInput if a machine has not that much left. Collective.
+  void check_memory(const Parameters &parameters, const Body &body, MPI_Comm communicator);
+} // namespace softcell

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bytes as measured on cylinders of up to 215 000 cells, degrees 1 to 6.
+
+#include <softcell/procedures/expected_memory.h>
+
+#include <softcell/base/memory.h>
+#include <softcell/discretization/expected_size.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace softcell
+{
+  namespace
+  {
+    double memory_of_solver(const LinearSolverParameters &solver, const ExpectedSize &size)
+    {
+      const double copy = 108 * size.couplings; // of the tangent, for Trilinos or PETSc
+      if (solver.solver == "direct")            // the factors of nested dissection grow as n^(4/3)
+        return copy + 72 * size.couplings + 1200 * std::pow(size.nodes, 4. / 3);
+      if (solver.preconditioner == "AMG")
+        return copy + (solver.backend == "PETSc" ? 17e3 : 9e3) * size.nodes;
+      return solver.preconditioner == "incomplete Cholesky" ? 2 * copy : 0;
+    }
+
+    /// The entries that say how many unknowns there are.
+    std::string size_entries(const DiscretizationParameters &parameters)
+    {
+      std::ostringstream text;
+      text << "Discretization/";
+      if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
+        text << "Mesh size = " << parameters.mesh.size;
+      else if (parameters.grid.cell_size > 0)
+        text << "Cell size = " << parameters.grid.cell_size;
+      else
+        for (std::size_t d = 0; d < parameters.grid.cells.size(); ++d)
+          text << (d == 0 ? "Cells = " : ", ") << parameters.grid.cells[d];
+      if (parameters.grid.surface_refinement > 0)
+        text << " with Surface refinement = " << parameters.grid.surface_refinement;
+      text << " and Degree = " << parameters.degree;
+      return text.str();
+    }
+  } // namespace
+
+  ExpectedMemory expected_memory(const Parameters &parameters, const Body &body)
+  {
+    const DiscretizationParameters &discretization = parameters.discretization;
+    const ExpectedSize size = expected_size(discretization, parameters.geometry, body);
+    ExpectedMemory memory;
+    memory.shared = 500 * size.grid_cells + 90 * size.couplings + 500 * size.nodes +
+                    memory_of_solver(parameters.linear_solver, size);
+    if (discretization.method == "finite cell") // its leaves, and which of their points are inside
+      memory.shared += size.cut_cells * std::pow(4, discretization.cut.levels) *
+                       (10 + std::pow(discretization.degree + 1, 3) / 5);
+    if (discretization.method == "tetrahedra" || discretization.method == "hexahedra")
+      memory.by_each = 300 * size.cells; // every rank has the whole mesh
+    if (discretization.method != "tetrahedra")
+      memory.by_each += 1.15e9 * std::pow((discretization.degree + 1) / 7., 4.4); // deal.II's FE_Q
+    return memory;
+  }
+
+  void check_memory(const Parameters &parameters, const Body &body, MPI_Comm communicator)
+  {
+    const ExpectedMemory memory = expected_memory(parameters, body);
+    check_memory(
+      memory.shared, memory.by_each, size_entries(parameters.discretization),
+      std::string("give fewer or larger cells, ") +
+        (parameters.discretization.degree > 1 ? "a lower degree, " : "") +
+        (parameters.linear_solver.solver == "direct" ? "'Solver/Linear solver = CG', " : "") +
+        "or more machines",
+      communicator);
+  }
+} // namespace softcell

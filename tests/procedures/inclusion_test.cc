@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A part of a surface inside another one, of a material of its own.
+
+#include "../box_surface.h"
+
+#include <softcell/geometry/surface_body.h>
+#include <softcell/procedures/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace
+{
+  using namespace softcell;
+
+  /// The unit cube with a cube of half its size in the middle, which is patch 7.
+  Surface nested_cubes()
+  {
+    const Surface outer                      = box_surface(Point(1, 1, 1), 1);
+    std::vector<Point> vertices              = outer.vertices();
+    std::vector<Surface::Triangle> triangles = outer.triangles();
+    std::vector<unsigned int> patches(triangles.size(), 0);
+    const unsigned int n = vertices.size();
+    for (const Point &X : outer.vertices())
+      vertices.push_back(Point(0.25, 0.25, 0.25) + 0.5 * (X - Point()));
+    for (const auto &[a, b, c] : outer.triangles())
+      triangles.push_back({a + n, b + n, c + n});
+    patches.resize(triangles.size(), 7);
+    return Surface(vertices, triangles, patches);
+  }
+} // namespace
+
+/// The grid's planes are those of the cubes, so that volumes are exact but for tetrahedra.
+TEST(Simulation, inclusion_has_the_weight_of_its_own_material)
+{
+  const SurfaceBody body(nested_cubes(), {7}, "");
+  for (const std::string method : {"finite cell", "weighted cell", "tetrahedra"})
+  {
+    SCOPED_TRACE(method);
+    Parameters p;
+    p.geometry.type                = "surface";
+    p.material.density             = 1;
+    p.label_materials["7"]         = p.material;
+    p.label_materials["7"].density = 9;
+    p.discretization.method        = method;
+    p.discretization.grid.cells    = {8};
+    p.linear_solver.solver         = "direct";
+    p.loads.gravity                = Direction({0, 0, -10});
+    p.regions                      = {{"base", "z < 1e-9"}};
+    p.load_entries                 = {{"base", "clamp"}};
+
+    std::ostringstream log;
+    Console console(log, false, 1e9);
+    Simulation simulation("test", p, body, console);
+    ASSERT_TRUE(simulation.solve("")) << simulation.reason();
+    const double weight    = -10 * (1. + 8. / 8); // 8 kg/m^3 more in an eighth of the volume
+    const double tolerance = method == "tetrahedra" ? 0.05 : 1e-9;
+    EXPECT_NEAR(simulation.row().number("gravity_fz"), weight, -tolerance * weight);
+    EXPECT_NEAR(simulation.row().number("base_fz"), -weight, -tolerance * weight);
+  }
+}
