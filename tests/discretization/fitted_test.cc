@@ -15,7 +15,7 @@ namespace softcell
   namespace
   {
     const Point size(2, 1, 1.5);
-    const std::array<unsigned int, 3> n = {{4, 2, 3}};
+    const std::array<unsigned int, 3> n_cells = {{4, 2, 3}};
     const Region everywhere("everywhere", "1");
 
     struct Element
@@ -26,7 +26,8 @@ namespace softcell
 
     Fitted on_box(const Element &element, MPI_Comm communicator = MPI_COMM_WORLD)
     {
-      const Mesh mesh = element.tetrahedra ? kuhn_box(size, n) : hexahedral_box(size, n);
+      const Mesh mesh =
+        element.tetrahedra ? kuhn_box(size, n_cells) : hexahedral_box(size, n_cells);
       return Fitted(communicator, mesh, element.degree, *make_box(size));
     }
 
@@ -287,7 +288,7 @@ namespace softcell
 
   TEST(Fitted, RefusesCellsThatAreInsideOut)
   {
-    Mesh mesh = hexahedral_box(size, n);
+    Mesh mesh = hexahedral_box(size, n_cells);
     std::swap(mesh.vertices[0], mesh.vertices[1]);
     EXPECT_THROW(Fitted(MPI_COMM_WORLD, mesh, 1, *make_box(size)), BadInput);
   }
