@@ -118,26 +118,6 @@ namespace softcell
     }
   }
 
-  TEST(Immersed, VolumeConvergesWithTheLevels)
-  {
-    const auto body = make_torus(0.1, 0.04);
-    for (const char *rule : {"finite cell", "weighted cell"})
-    {
-      double previous = 1;
-      for (unsigned int levels = 1; levels <= 4; ++levels)
-      {
-        const Immersed immersed(rule, 1, cells_across(4), {levels, 0}, *body, MPI_COMM_WORLD);
-        const double error = std::abs(seen_volume(immersed) / body->volume() - 1);
-        EXPECT_LT(error, 0.1 * std::pow(0.5, levels));
-        previous = error;
-      }
-      EXPECT_LT(previous, 1e-3);
-    }
-    const Immersed sparse("sparse grid", 1, cells_across(4), {3, 0}, *body, MPI_COMM_WORLD);
-    const double h = 0.08 / 4;
-    EXPECT_NEAR(seen_volume(sparse), sparse.size().cells * h * h * h, 1e-12);
-  }
-
   TEST(Immersed, ShapesAreLinearlyComplete)
   {
     const auto body = make_sphere(0.5);
@@ -165,7 +145,10 @@ namespace softcell
     }
     EXPECT_GT(dealii::Utilities::MPI::sum(n_on_edge, MPI_COMM_WORLD), 0u);
     EXPECT_GT(dealii::Utilities::MPI::sum(n_on_face, MPI_COMM_WORLD), 0u);
-    EXPECT_NEAR(seen_volume(immersed), M_PI / 6, 3e-3);
+    // Leaves of 1/64 see up to 0.29 of their height too much or too little. That adds up where the
+    // ball lies along the grid, in six caps as high as a leaf, with areas of 2 pi R / 64; elsewhere
+    // errors are random, less than a fifth of that.
+    EXPECT_NEAR(seen_volume(immersed), M_PI / 6, 6 * 0.29 / 64 * M_PI / 64 * 1.2);
   }
 
   TEST(Immersed, FindsTheShapesOfAPoint)
