@@ -28,6 +28,11 @@ namespace softcell
   /// fig. 4.6 by at most 0.06 % at 4 to 8 cells across; without it, prm/liver.prm at 14 cells
   /// across finds no equilibrium under the organ's weight.
   ///
+  /// Accuracy: the points stay where they are however the cell is cut, so that products of
+  /// gradients are not integrated exactly, at any number of levels. In a linear cube that lies
+  /// across all axes, under the tractions of a linear displacement, strains are off by 13 % (L2) at
+  /// 4 cells across, 9 % at 8 and 5 % at 16; FiniteCell has less than 1 % there at 4 levels.
+  ///
   /// Source: Brunet sec. 4.5, eq. 4.12-4.13 with v as a fraction, and p. 110 on the sparse
   /// grid.
   class WeightedCell : public CutRule
