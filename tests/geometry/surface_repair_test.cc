@@ -185,6 +185,38 @@ TEST(SurfaceRepair, CrossingPartsAreErrors)
                "pairs of triangles do, the first at (");
 }
 
+// A vertex that is drawn along the sphere beyond its neighbours folds its triangles over theirs.
+TEST(SurfaceRepair, FoldsAreRemoved)
+{
+  const Surface ball = sphere(4);
+  SurfaceSoup soup   = soup_of(ball);
+  for (unsigned int t = 0; t < soup.polygons.size(); ++t)
+    soup.patches[t] = ball.normal(t)[2] > 0;
+  const auto nearest = [&](const Point &X) {
+    return std::min_element(
+      soup.points.begin(), soup.points.end(),
+      [&](const Point &a, const Point &b) { return X.distance(a) < X.distance(b); });
+  };
+  Point &moved          = *nearest(Point(0.6, 0.48, 0.64));
+  const Direction along = *nearest(moved + Direction({0.1, -0.1, 0})) - moved;
+  moved += 1.6 * along;
+  moved /= moved.norm();
+
+  Names repairs;
+  const Surface surface = close_surface(soup, "file", repairs);
+  ASSERT_EQ(repairs.size(), 1u);
+  EXPECT_EQ(repairs[0].find("file: self-intersections of "), 0u) << repairs[0];
+  EXPECT_NE(repairs[0].find(" pairs of triangles removed, the first at (0."), std::string::npos)
+    << repairs[0];
+  EXPECT_NEAR(surface.volume(), ball.volume(), 1e-3 * ball.volume());
+  EXPECT_NEAR(surface.area(), ball.area(), 0.01 * ball.area());
+  for (unsigned int t = 0; t < surface.triangles().size(); ++t)
+    EXPECT_EQ(surface.patches()[t], surface.normal(t)[2] > 0);
+  repairs.clear();
+  close_surface(soup_of(surface), "file", repairs); // nothing is left to repair
+  EXPECT_EQ(repairs, Names());
+}
+
 TEST(SurfaceRepair, RealLivers)
 {
   const std::string organs = SOFTCELL_ORGANS;
