@@ -15,7 +15,10 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <sstream>
 
 namespace softcell
@@ -161,11 +164,16 @@ namespace softcell
       Builder(const LoadParameters &parameters,
               const Discretization &discretization,
               const Surface &surface,
-              const std::vector<Material> &materials)
+              const std::vector<Material> &materials,
+              const std::vector<LoadDescription> &descriptions)
           : parameters_(parameters),
             discretization_(discretization),
             surface_(surface),
             materials_(materials),
+            n_displacements_(std::count_if(
+              descriptions.begin(),
+              descriptions.end(),
+              [](const LoadDescription &load) { return load.kind == Kind::displacement; })),
             held_(surface.bounding_box()),
             loads_{{}, ImposedDisplacement(discretization), ""}
       {
@@ -235,6 +243,8 @@ namespace softcell
           {
             check_selects(region, nodes->size());
             check_numbers(displacement, *nodes);
+            if (how == "automatic")
+              check_agreement(load, discretization_.surface_patches(region), displacement);
             loads_.imposed.add(load.region, *nodes, std::move(displacement));
             return;
           }
@@ -246,6 +256,8 @@ namespace softcell
         }
         auto patches = surface_patches(region);
         check_numbers(displacement, patches);
+        if (!is_nodal()) // regions that meet share the nodes between them
+          check_agreement(load, patches, displacement);
         if (how == "penalty" || how == "automatic")
         {
           if (is_nodal()) // k of each node in N/m, whatever its area
@@ -322,14 +334,54 @@ namespace softcell
         for (const Point &X : points)
         {
           const Direction found = value.value(X, 1);
-          const bool is_number  = std::isfinite(found.norm());
+          const bool is_number  = std::all_of(found.begin_raw(), found.end_raw(),
+                                              [](double c) { return std::isfinite(c); });
           if ((is_number && !(is_stiffness && found[0] < 0)) || !message.str().empty())
             continue;
           message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
                   << " at (" << X << "), t = 1; mend the expression or the region.";
         }
+        throw_on_all(message.str());
+      }
+
+      /// Points that an earlier displacement holds too must be held in the same place by both.
+      /// Points of the same piece of surface are equal to the last bit.
+      void check_agreement(const LoadDescription &load,
+                           const std::vector<SurfacePatch> &patches,
+                           const Expression &displacement)
+      {
+        if (n_displacements_ < 2)
+          return;
+        const auto [lower, upper] = surface_.bounding_box().get_boundary_points();
+        const double round_off    = 1e-12 * lower.distance(upper);
+        std::ostringstream message;
+        for (const SurfacePatch &patch : patches)
+          for (const Point &X : patch.points)
+          {
+            const Direction g = displacement.value(X, 1);
+            HeldPoint here{&load.place, {}};
+            for (unsigned int c = 0; c < 3; ++c)
+              if (!displacement.is_free(c))
+                here.place[c] = g[c];
+            const HeldPoint &there =
+              held_points_.emplace(std::array{X[0], X[1], X[2]}, here).first->second;
+            for (unsigned int c = 0; c < 3 && message.str().empty(); ++c)
+              if (there.place[c] && here.place[c] &&
+                  std::abs(*there.place[c] - *here.place[c]) > round_off)
+                message << *there.load << " and " << load.place << " impose " << *there.place[c]
+                        << " m and " << *here.place[c] << " m along "
+                        << "xyz"[c] << " at (" << X
+                        << "); leave that component `free` in one of them or let the regions not "
+                           "meet.";
+          }
+        throw_on_all(message.str());
+      }
+
+      /// Throws what any rank has to complain of.
+      void throw_on_all(const std::string &complaint) const
+      {
         for (const std::string &any :
-             dealii::Utilities::MPI::all_gather(discretization_.communicator(), message.str()))
+             dealii::Utilities::MPI::all_gather(discretization_.communicator(), complaint))
           if (!any.empty())
             throw BadInput(any);
       }
@@ -346,11 +398,20 @@ namespace softcell
                 held_.hold(X, c);
       }
 
+      /// Where a displacement imposed by forces puts a point of the surface.
+      struct HeldPoint
+      {
+        const std::string *load; // that holds it, its place
+        std::array<std::optional<double>, 3> place;
+      };
+
       const LoadParameters &parameters_;
       const Discretization &discretization_;
       const Surface &surface_;
       const std::vector<Material> &materials_;
+      const unsigned int n_displacements_; // of the loads
       RigidModes held_;
+      std::map<std::array<double, 3>, HeldPoint> held_points_;
       Loads loads_;
     };
   } // namespace
@@ -362,7 +423,7 @@ namespace softcell
                    const Surface &surface,
                    const std::vector<Material> &materials)
   {
-    Builder builder(parameters, discretization, surface, materials);
+    Builder builder(parameters, discretization, surface, materials, descriptions);
     builder.add_weight();
     for (const LoadDescription &load : descriptions)
       builder.add(load, find_region(load.region, regions));

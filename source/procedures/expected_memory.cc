@@ -24,28 +24,30 @@ namespace softcell
     }
 
     /// The entries that say how many unknowns there are.
-    std::string size_entries(const DiscretizationParameters &parameters)
+    std::string size_entries(const DiscretizationParameters &parameters, const double n_cells)
     {
+      const bool is_grid = parameters.method != "tetrahedra" && parameters.method != "hexahedra";
       std::ostringstream text;
       text << "Discretization/";
       if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
         text << "Mesh size = " << parameters.mesh.size;
-      else if (parameters.grid.cell_size > 0)
+      else if (is_grid && parameters.grid.cell_size > 0)
         text << "Cell size = " << parameters.grid.cell_size;
       else
         for (std::size_t d = 0; d < parameters.grid.cells.size(); ++d)
           text << (d == 0 ? "Cells = " : ", ") << parameters.grid.cells[d];
-      if (parameters.grid.surface_refinement > 0)
-        text << " with Surface refinement = " << parameters.grid.surface_refinement;
-      text << " and Degree = " << parameters.degree;
+      text << " at Degree = " << parameters.degree;
+      if (is_grid && parameters.grid.surface_refinement > 0)
+        text << " and Surface refinement = " << parameters.grid.surface_refinement;
+      text.precision(2);
+      text << " (about " << n_cells << " cells)";
       return text.str();
     }
   } // namespace
 
-  ExpectedMemory expected_memory(const Parameters &parameters, const Body &body)
+  ExpectedMemory expected_memory(const Parameters &parameters, const ExpectedSize &size)
   {
     const DiscretizationParameters &discretization = parameters.discretization;
-    const ExpectedSize size = expected_size(discretization, parameters.geometry, body);
     ExpectedMemory memory;
     memory.shared = 500 * size.grid_cells + 90 * size.couplings + 500 * size.nodes +
                     memory_of_solver(parameters.linear_solver, size);
@@ -61,11 +63,13 @@ namespace softcell
 
   void check_memory(const Parameters &parameters, const Body &body, MPI_Comm communicator)
   {
-    const ExpectedMemory memory = expected_memory(parameters, body);
+    const DiscretizationParameters &discretization = parameters.discretization;
+    const ExpectedSize size     = expected_size(discretization, parameters.geometry, body);
+    const ExpectedMemory memory = expected_memory(parameters, size);
     check_memory(
-      memory.shared, memory.by_each, size_entries(parameters.discretization),
+      memory.shared, memory.by_each, size_entries(discretization, size.cells),
       std::string("give fewer or larger cells, ") +
-        (parameters.discretization.degree > 1 ? "a lower degree, " : "") +
+        (discretization.degree > 1 ? "a lower degree, " : "") +
         (parameters.linear_solver.solver == "direct" ? "'Solver/Linear solver = CG', " : "") +
         "or more machines",
       communicator);

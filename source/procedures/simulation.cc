@@ -170,7 +170,7 @@ namespace softcell
   bool Simulation::solve(const std::filesystem::path &folder)
   {
     std::string step_text;
-    unsigned int n_iterations = 0, n_accepted = 0;
+    unsigned int n_iterations = 0, n_linear_iterations = 0, n_accepted = 0;
     double residual       = 0;
     const auto begin_step = [&](const LoadStep &step) {
       if (step.attempt > 1)
@@ -178,12 +178,13 @@ namespace softcell
       std::ostringstream text;
       text << "  load " << std::setprecision(4) << step.from << " -> " << step.to;
       step_text    = text.str();
-      n_iterations = 0;
+      n_iterations = n_linear_iterations = 0;
       console_.progress(step_text);
     };
     const auto report = [&](const NewtonIteration &iteration) {
       n_iterations = iteration.iteration;
-      residual     = iteration.residual;
+      n_linear_iterations += iteration.linear_iterations;
+      residual = iteration.residual;
       std::ostringstream text;
       text << step_text << ", iteration " << iteration.iteration << ": residual "
            << in_digits(iteration.residual) << ", update " << in_digits(iteration.update)
@@ -193,7 +194,8 @@ namespace softcell
     };
     const auto accepted = [&](const LoadStep &step, const Vector &) {
       console_.say(step_text + ": " + std::to_string(n_iterations) + " iterations, residual " +
-                   in_digits(residual));
+                   in_digits(residual) + ", " + std::to_string(n_linear_iterations) +
+                   " linear iterations");
       const unsigned int every = parameters_.output.every;
       if (every > 0 && ++n_accepted % every == 0)
         write_state(folder, step.to);

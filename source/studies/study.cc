@@ -93,6 +93,13 @@ namespace softcell
             cases.push_back(one);
           }
     }
+    const auto has_levels = [](const StudyCase &one) {
+      return one.settings.size() > 0 &&
+             one.settings.back().find("/Cut levels") != std::string::npos;
+    };
+    if (!study.cut_levels.empty() && std::none_of(cases.begin(), cases.end(), has_levels))
+      throw BadInput("Study/Cut levels = " + study.cut_levels +
+                     " means nothing to any of the methods; remove it.");
     for (std::size_t i = 0; i < cases.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         if (cases[i].name == cases[k].name)

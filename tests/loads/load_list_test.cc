@@ -130,6 +130,26 @@ namespace softcell
                        "free to move along x and y and to turn about z"));
   }
 
+  TEST(LoadList, RefusesToHoldAPointInTwoPlaces)
+  {
+    Problem problem;
+    problem.regions.emplace_back("lower", "z < 0.3");
+    const BoxOfCells grid = unit_cube(false);
+    for (const std::string how : {"penalty", "Nitsche"})
+    {
+      problem.parameters.imposition = how;
+      const std::string text =
+        problem.complaint(grid, {{"base", "clamp"}, {"lower", "displacement free, 0, 0.1"}});
+      EXPECT_TRUE(says(text, "Loads/base = 'clamp' and Loads/lower = 'displacement free, 0, 0.1' "
+                             "impose 0 m and 0.1 m along z at ("))
+        << text;
+      EXPECT_EQ(problem.complaint(grid, {{"base", "clamp"}, {"lower", "displacement 0, 0, free"}}),
+                "");
+      EXPECT_EQ(problem.complaint(grid, {{"base", "clamp"}, {"top", "displacement 0, 0, 0.1"}}),
+                "");
+    }
+  }
+
   TEST(LoadList, NamesWhatIsWrong)
   {
     const Problem problem;

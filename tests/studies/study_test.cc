@@ -55,6 +55,16 @@ TEST(Study, refuses_the_same_case_twice)
   EXPECT_EQ(study_cases(p).size(), 4u);
 }
 
+TEST(Study, refuses_levels_that_no_method_has)
+{
+  Parameters p;
+  p.study.cut_levels = "1, 2";
+  p.study.methods    = "sparse grid, hexahedra";
+  EXPECT_THROW(study_cases(p), BadInput);
+  p.study.methods = "sparse grid, weighted cell";
+  EXPECT_EQ(study_cases(p).size(), 3u);
+}
+
 TEST(Study, of_nothing_is_one_case)
 {
   Parameters p;

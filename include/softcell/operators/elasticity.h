@@ -51,11 +51,6 @@ namespace softcell
     /// Volume of the body as the quadrature sees it. Units: m^3
     double volume() const;
 
-    const std::vector<Material> &materials() const
-    {
-      return materials_;
-    }
-
   private:
     template <class Function>
     void for_each_patch(const Function &function) const;

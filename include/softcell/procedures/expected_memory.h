@@ -2,6 +2,7 @@
 // How much memory a run will take, before anything is built.
 #pragma once
 
+#include <softcell/discretization/expected_size.h>
 #include <softcell/procedures/parameters.h>
 
 namespace softcell
@@ -13,9 +14,9 @@ namespace softcell
     double by_each = 0; // by every rank
   };
 
-  /// From the expected size of the discretization, with the bytes that its parts, the tangent and
-  /// the linear solver were measured to take; within about a third. @throws BadInput
-  ExpectedMemory expected_memory(const Parameters &parameters, const Body &body);
+  /// By the bytes that the discretization's parts, the tangent and the linear solver were measured
+  /// to take; within about a third.
+  ExpectedMemory expected_memory(const Parameters &parameters, const ExpectedSize &size);
 
   /// @throws BadInput if a machine has not that much left. Collective.
   void check_memory(const Parameters &parameters, const Body &body, MPI_Comm communicator);
