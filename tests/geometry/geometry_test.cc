@@ -7,10 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "shapes.h"
+#include "surface_files.h"
+
 #include <cmath>
-#include <fstream>
 
 using namespace softcell;
+using namespace softcell::testing;
 
 namespace
 {
@@ -60,11 +63,10 @@ TEST(Geometry, MakesEveryShape)
 
 TEST(Geometry, ReadsASurfaceInItsUnit)
 {
-  const std::string organ = SOFTCELL_ORGANS "/liver_cgal/liver_5k.off";
-  if (!std::ifstream(organ))
-    GTEST_SKIP() << organ << " is missing";
-  EXPECT_NEAR(body("set Type = surface\n set File = " + organ + "\n set Scale = 0.001\n")->volume(),
-              1599.2e-6, 0.1e-6);
+  const TemporaryFolder folder;
+  const std::string file = folder.write("brick.off", as_off(brick(Point(), Point(20, 30, 40))));
+  EXPECT_NEAR(body("set Type = surface\n set File = " + file + "\n set Scale = 0.001\n")->volume(),
+              24e-6, 1e-15);
 }
 
 TEST(Geometry, ReadsListsOfLabels)

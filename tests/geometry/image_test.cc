@@ -51,7 +51,7 @@ namespace
   }
 
   /// A folder of files that goes with the test.
-  class Image : public testing::Test
+  class Image : public ::testing::Test
   {
   protected:
     Image()

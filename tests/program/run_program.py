@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the whole program and checks what it prints, returns and writes.
 
-usage: run_program.py SOFTCELL GROUP     with a GROUP of command_line, bad_input, ranks, checkpoints, methods
+usage: run_program.py SOFTCELL GROUP
+GROUP is one of command_line, bad_input, ranks, checkpoints, methods, organ.
 """
 import csv
 import json
@@ -17,6 +18,7 @@ import time
 
 from bad_inputs import BAD_INPUTS, write_files
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
 # Of a row of results.csv, what need not be the same on any number of ranks.
 NOT_COMPARED = {"newton_iterations", "linear_iterations", "setup_s", "assembly_s", "solve_s", "total_s",
@@ -67,6 +69,7 @@ subsection Loads
   set base = clamp
 end
 """
+SKIPPED = 77  # exit status
 failures = []
 
 
@@ -252,15 +255,49 @@ end
         check(row["converged"] == "true", f"{row['method']} converged")
         check(float(row["relative_l2_error"] or "inf") < 0.1, f"{row['method']}: error {row['relative_l2_error']}")
 
-    root = pathlib.Path(__file__).resolve().parents[2]
     tips = []
     for mesh in (["Mesh file = meshes/hexagonal_prism.msh"], ["Mesh file = ", "Mesh size = 0.03"]):
         settings = [word for entry in mesh for word in ("--set", f"Discretization/{entry}")]
-        status, out, error = softcell("prm/hexagonal_prism.prm", *settings, "--output", folder / "prism", folder=root)
+        status, out, error = softcell("prm/hexagonal_prism.prm", *settings, "--output", folder / "prism", folder=ROOT)
         check(status == 0, f"{mesh}: status {status}: {out[-2000:]} {error[-2000:]}")
         tips.append(float(rows(folder / "prism" / "results.csv")[0]["tip_uy"]))
     # CGAL rounds the prism's edges off, by a hundredth of its volume
     check(abs(tips[0] / tips[1] - 1) < 0.01, f"the prism bends alike on the meshes of Gmsh and CGAL: {tips}")
+
+
+def organ(folder):
+    """The liver of prm/liver.prm on a coarse grid: its volume, equilibrium, and the same on three ranks."""
+    if not (ROOT / "data" / "liver.inr.gz").exists():
+        print("data/liver.inr.gz is missing: scripts/fetch-liver brings it")
+        sys.exit(SKIPPED)
+    volume = 3160496 * 0.617188e-3**2 * 1.33333e-3  # of its voxels
+    settings = ("Discretization/Cells = 10", "Discretization/Mesh size = 0.02", "Solver/Residual tolerance = 1e-11",
+                "Solver/Linear tolerance = 1e-12")
+    arguments = [word for setting in settings for word in ("--set", setting)]
+    # Of the volume; tetrahedra cut corners, the sparse grid counts cut cells as full.
+    bounds = {"finite cell": 1e-3, "weighted cell": 1e-3, "tetrahedra": 0.05, "sparse grid": None}
+    for method, tolerance in bounds.items():
+        results = []
+        for n in (1, 3):
+            out = folder / f"{method}{n}"
+            status, text, error = softcell("prm/liver.prm", *arguments, "--set", f"Discretization/Method = {method}",
+                                           "--output", str(out), ranks=n, folder=ROOT)
+            check(status == 0, f"{method} on {n} ranks: status {status}: {text[-2000:]} {error[-2000:]}")
+            if status == 0:
+                results.append(rows(out / "results.csv")[0])
+        if len(results) < 2:
+            continue
+        same_row(*results, 1e-8, method)
+        row = results[0]
+        full = 1 - float(row["cut_cells"] or 0) / float(row["cells"])
+        size = float(row["volume"]) / volume
+        check(full * size < 1 < size if tolerance is None else abs(size - 1) < tolerance,
+              f"{method}: {size} times the voxels' volume, {full} of the cells are full")
+        weight = 1060 * 9.81 * float(row["volume"])
+        check(abs(float(row["gravity_fz"]) + weight) < 1e-6 * weight, f"{method}: weight {row['gravity_fz']}")
+        for axis in "xyz":
+            rest = sum(float(row[f"{load}_f{axis}"]) for load in ("gravity", "diaphragm", "retractor"))
+            check(abs(rest) < 1e-6 * weight, f"{method}: forces along {axis} sum up to {rest}")
 
 
 if len(sys.argv) != 3:
@@ -268,7 +305,7 @@ if len(sys.argv) != 3:
 PROGRAM = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
-     "methods": methods}[sys.argv[2]](
+     "methods": methods, "organ": organ}[sys.argv[2]](
         pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)
