@@ -53,6 +53,7 @@ namespace softcell
     Surface surface;                   // normals away from what is enclosed
     std::optional<unsigned int> patch; // of all triangles
     std::optional<unsigned int> label; // of the material just inside; none: a hole
+    bool is_interface = false;         // between two materials
   };
 
   SurfaceBody::SurfaceBody(Surface surface)
@@ -73,17 +74,18 @@ namespace softcell
   {
     std::string patches;
     for (const Part &part : parts_)
-      patches += (patches.empty() ? "" : ", ") +
-                 (part.patch ? std::to_string(*part.patch) : "one of several patches");
+      patches +=
+        (patches.empty() ? "" : ", ") + (part.patch ? std::to_string(*part.patch) : "a mixture");
     names_.emplace_back("the rest");
     for (const unsigned int label : labels)
     {
       names_.push_back(std::to_string(label));
       if (std::none_of(parts_.begin(), parts_.end(),
                        [&](const Part &part) { return part.patch == label; }))
-        throw BadInput(name + ": no closed part of the surface is patch " + names_.back() +
-                       ", which 'Material " + names_.back() + "' or Geometry/Labels names; its " +
-                       std::to_string(parts_.size()) + " closed parts are patch " + patches + ".");
+        throw BadInput(
+          name + ": no closed part of the surface is of patch " + names_.back() +
+          " alone, as 'Material " + names_.back() +
+          "' or Geometry/Labels asks; the patches of its closed parts are: " + patches + ".");
     }
   }
 
@@ -118,7 +120,7 @@ namespace softcell
       if (std::count(closed.patches().begin(), closed.patches().end(), *patch) !=
           std::ptrdiff_t(closed.patches().size()))
         patch.reset();
-      parts.push_back({std::move(closed), patch, {}});
+      parts.push_back({std::move(closed), patch, {}, false});
     }
     std::sort(parts.begin(), parts.end(),
               [](const Part &a, const Part &b) { return a.surface.volume() < b.surface.volume(); });
@@ -141,8 +143,8 @@ namespace softcell
       else if (!outside)
         part->label = 0;
 
-      const bool is_interface = part->label && outside;
-      for (unsigned int t = 0; !is_interface && t < part->surface.triangles().size(); ++t)
+      part->is_interface = part->label && outside;
+      for (unsigned int t = 0; !part->is_interface && t < part->surface.triangles().size(); ++t)
       {
         auto [a, b, c] = part->surface.corners(t);
         if (!part->label)
@@ -188,7 +190,10 @@ namespace softcell
   {
     auto [lower, upper]       = box.get_boundary_points();
     const Direction clearance = 1e-9 * (upper - lower);
-    if (surface_.meets(Box({lower + clearance, upper - clearance})))
+    const Box inner({lower + clearance, upper - clearance});
+    if (surface_.meets(inner) || std::any_of(parts_.begin(), parts_.end(), [&](const Part &part) {
+          return part.is_interface && part.surface.meets(inner);
+        }))
       return Side::cut;
     return surface_.contains(box.center()) ? Side::inside : Side::outside;
   }

@@ -157,7 +157,11 @@ TEST(SurfaceBody, FillsAPartInsideByItsOwnMaterial)
   EXPECT_NEAR(body.surface().area(), 24, 1e-13);
   EXPECT_EQ(body.surface().patches(), std::vector<unsigned int>(12, 3));
   EXPECT_TRUE(body.contains(Point(0.1, 0.2, 0.3)));
-  EXPECT_EQ(body.classify(Box({Point(0, 0, 0), Point(0.9, 0.9, 0.9)})), Side::inside);
+  EXPECT_EQ(body.classify(Box({Point(0, 0, 0), Point(0.5, 0.5, 0.5)})), Side::inside);
+  EXPECT_EQ(body.classify(Box({Point(0.6, 0, 0), Point(0.9, 0.9, 0.9)})), Side::inside);
+  const Box across({Point(0, 0, 0), Point(0.9, 0.9, 0.9)});
+  EXPECT_EQ(body.classify(across), Side::cut);
+  EXPECT_NEAR(body.filled_volume(across), across.volume(), 1e-15);
   EXPECT_EQ(body.label(Point(0.1, 0.2, 0.3)), 1u);
   EXPECT_EQ(body.label(Point(0.1, 0.2, 0.7)), 0u);
   EXPECT_EQ(body.label(Point(0.1, 0.2, 1.1)), 0u);
@@ -197,7 +201,8 @@ TEST(SurfaceBody, NamesTheLabelThatIsNoClosedPart)
   catch (const BadInput &error)
   {
     const std::string text = error.what();
-    EXPECT_EQ(text.find("liver.stl: no closed part of the surface is patch 4"), 0u) << text;
-    EXPECT_NE(text.find("its 2 closed parts are patch 7, 3."), std::string::npos) << text;
+    EXPECT_EQ(text.find("liver.stl: no closed part of the surface is of patch 4 alone"), 0u)
+      << text;
+    EXPECT_NE(text.find("closed parts are: 7, 3."), std::string::npos) << text;
   }
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 
 namespace
@@ -30,6 +31,34 @@ namespace
     return Surface(vertices, triangles, patches);
   }
 } // namespace
+
+/// Three cells across have planes at 1/3 and 2/3: with L levels the finite cell sees the
+/// inclusion's sides in steps of 2^-L / 3, half of which is the error of an edge's length of 1/2 at
+/// either end.
+TEST(Simulation, finite_cell_refines_towards_an_inclusion)
+{
+  const SurfaceBody body(nested_cubes(), {7}, "");
+  for (const unsigned int levels : {2u, 4u})
+  {
+    Parameters p;
+    p.geometry.type             = "surface";
+    p.label_materials["7"]      = p.material;
+    p.material.density          = 0;
+    p.discretization.method     = "finite cell";
+    p.discretization.cut.levels = levels;
+    p.discretization.grid.cells = {3};
+    p.linear_solver.solver      = "direct";
+    p.loads.gravity             = Direction({0, 0, -1e-3});
+    p.regions                   = {{"base", "z < 1e-9"}};
+    p.load_entries              = {{"base", "clamp"}};
+    std::ostringstream log;
+    Console console(log, false, 1e9);
+    Simulation simulation("test", p, body, console);
+    ASSERT_TRUE(simulation.solve("")) << simulation.reason();
+    const double step = std::pow(0.5, levels) / 3;
+    EXPECT_NEAR(std::cbrt(-simulation.row().number("gravity_fz")), 0.5, step);
+  }
+}
 
 /// The grid's planes are those of the cubes, so that volumes are exact but for tetrahedra.
 TEST(Simulation, inclusion_has_the_weight_of_its_own_material)

@@ -136,7 +136,7 @@ BAD_INPUTS = [
     ("grid too coarse", ["Discretization/Cells = 1", "Discretization/Smallest volume fraction = 0.9"], None,
      ["Discretization/Cells = 1", "coarse"]),
     ("material of no part of the surface", surface("good.off"),
-     "@BAR@subsection Material 9\n  set Density = 1\nend\n", ["good.off", "9", "patch 0"]),
+     "@BAR@subsection Material 9\n  set Density = 1\nend\n", ["good.off", "9", "are: 0"]),
     ("material of no label", [], "@BAR@subsection Material 9\n  set Density = 1\nend\n", ["Material 9"]),
     ("more memory than there is", ["Discretization/Cells = 1200"], None, ["Cells = 1200", "memory", "free"]),
     ("more memory for a degree", ["Discretization/Cells = 150", "Discretization/Degree = 6"], None,

@@ -15,6 +15,8 @@ namespace softcell
   /// A closed part of the surface inside another one is a hole, unless its patch is named as a
   /// label: a part whose triangles all are of such a patch is filled by a material of that label,
   /// wherever it lies. Between two materials there is no boundary: surface() leaves such parts out.
+  /// A box that one of them meets counts as cut though it is full, so that cut-cell rules refine
+  /// towards it.
   class SurfaceBody : public Body
   {
   public:
