@@ -18,6 +18,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
@@ -296,6 +297,22 @@ namespace softcell
       mesh.remove_property_map(const_cast<std::remove_const_t<decltype(parts)> &>(parts));
     }
 
+    bool has_face(const Mesh &mesh, const Mesh::Face_index face)
+    {
+      return face < Mesh::Face_index(mesh.num_faces()) && !mesh.is_removed(face);
+    }
+
+    /// In ascending order.
+    std::array<Mesh::Vertex_index, 3> corners(const Mesh &mesh, const Mesh::Face_index face)
+    {
+      std::array<Mesh::Vertex_index, 3> result;
+      auto next = result.begin();
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(face)))
+        *next++ = v;
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+
     void remove_self_intersections(Mesh &mesh,
                                    const std::string &name,
                                    std::vector<std::string> &repairs)
@@ -319,12 +336,12 @@ namespace softcell
                        first_places(places) +
                        "; separate or remesh these places (Remeshing of MeshLab).");
 
-      // new triangles belong to the patch that is nearest to them
+      // new triangles, to which CGAL gives numbers of old ones, belong to the patch that is nearest
       const Surface before  = as_surface(mesh);
       const Origins origins = trial.property_map<Mesh::Face_index, Origin>("origin").first;
       for (const auto face : trial.faces())
-        if (!origins[face].from.is_valid())
-          origins[face].patch = before.patches()[before.nearest(centre(trial, face)).second];
+        if (!has_face(mesh, face) || corners(mesh, face) != corners(trial, face))
+          origins[face] = {before.patches()[before.nearest(centre(trial, face)).second], {}, {}};
       mesh = std::move(trial);
       repairs.push_back("self-intersections of " + found + " removed, the first at " +
                         first_places(places));
