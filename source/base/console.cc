@@ -32,8 +32,9 @@ namespace softcell
     is_root_ = rank == 0;
     if (is_root_ && !quiet)
     {
-      out_     = &std::cout;
-      is_live_ = isatty(STDOUT_FILENO) != 0;
+      out_ = &std::cout;
+      // mpirun gives its ranks a terminal to write to even where its own output goes to a file
+      is_live_ = isatty(STDOUT_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
     }
   }
 

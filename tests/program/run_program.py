@@ -191,6 +191,7 @@ def ranks(folder):
             status, out, error = softcell("bar.prm", "--set", f"Discretization/Method = {method}", "--output",
                                           f"{method}{n}", ranks=n, folder=folder)
             check(status == 0, f"{method} on {n} ranks: status {status}: {out[-2000:]} {error[-2000:]}")
+            check("\x1b" not in out, f"{method} on {n} ranks: no live line where the output is no terminal")
             if status == 0:
                 results.append(rows(folder / f"{method}{n}" / "results.csv")[0])
         for n, row in enumerate(results[1:], 2):
