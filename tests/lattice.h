@@ -87,6 +87,7 @@ namespace softcell
       std::vector<SurfacePatch> patches;
       for_faces(region, [&](const auto &c, const unsigned int axis, const unsigned int side) {
         SurfacePatch patch;
+        patch.cell      = c[0] + cells_[0] * (c[1] + cells_[1] * (c[2] - first_layer_));
         patch.nodes     = cell_nodes(c);
         patch.cell_size = h(axis);
         patch.labels    = {0, 0, 0, 0};

@@ -399,6 +399,7 @@ namespace softcell
     const auto cell                = nodes_of(face.cell);
     const ReferenceFace &reference = reference_faces[face.number];
     SurfacePatch result;
+    result.cell = face.cell;
     result.nodes.assign(cell.begin(), cell.end());
     result.shapes = reference.shapes;
     result.labels.assign(boundary_rule.size(), labels[face.cell]);

@@ -165,6 +165,7 @@ namespace softcell
       for (const Point &X : patch.points)
         unit_points.push_back(box.real_to_unit(X));
       evaluate(cell, unit_points, patch.shapes);
+      patch.cell = cell;
       patch.nodes.assign(nodes(cell).begin(), nodes(cell).end());
       patch.cell_size = std::cbrt(box.volume());
       result.push_back(std::move(patch));

@@ -6,6 +6,7 @@
 #include <softcell/base/exceptions.h>
 #include <softcell/base/parameters.h>
 #include <softcell/loads/dead_loads.h>
+#include <softcell/loads/nitsche.h>
 #include <softcell/loads/nodal_mapping.h>
 #include <softcell/loads/pressure.h>
 #include <softcell/loads/rigid_modes.h>
@@ -118,16 +119,19 @@ namespace softcell
       "Imposed displacement", imposition,
       "How displacements are imposed: on the unknowns of nodes (strong, where the "
       "region coincides with faces of cells), by penalty or by Nitsche's method; "
-      "automatic is strong where that is possible and penalty elsewhere. Nitsche is "
-      "consistent, but not stable where the surface leaves slivers of cells.",
+      "automatic is strong where that is possible and penalty elsewhere. Nitsche errs less "
+      "than penalty, whose misfit is the traction divided by its stiffness, and takes longer.",
       Patterns::Selection("automatic|strong|penalty|Nitsche"));
     prm.add_parameter("Penalty", penalty,
                       "Units: Pa/m (N/m if the surface integration is nodal). Stiffness by which "
                       "penalty holds the surface; an expression of x, y, z and t, e.g. 100 * "
-                      "100000^t to stiffen with the load.");
+                      "100000^t to stiffen with the load; automatic: 10 (lambda + 2 mu) / (cell "
+                      "size), with which the misfit is about a tenth of strain times cell size.");
     prm.add_parameter("Nitsche factor", nitsche_factor,
-                      "Units: 1. Nitsche's method adds the stiffness factor * degree^2 * (lambda + "
-                      "2 mu) / (cell size); whole cells need more than 4, small cuts more than 10.",
+                      "Units: 1. Nitsche's method adds the stiffness factor * (lambda + 2 mu) * "
+                      "(surface in a cell) / (filled volume of the cell), at degree 1, but at most "
+                      "1000 (lambda + 2 mu) / (cell size). Small strains need more than 1; where a "
+                      "clamp's edge compresses the material to half, 2 is too little.",
                       Patterns::Double(0.));
     prm.add_parameter("Surface integration", surface_integration,
                       "exact: on the pieces of surface in each cell; nodal: at the nodes of the "
@@ -260,11 +264,7 @@ namespace softcell
           check_agreement(load, patches, displacement);
         if (how == "penalty" || how == "automatic")
         {
-          if (is_nodal()) // k of each node in N/m, whatever its area
-            for (SurfacePatch &patch : patches)
-              patch.weights.assign(patch.weights.size(), 1.);
-          Expression stiffness(parameters_.penalty, 1,
-                               "Loads/Penalty = '" + parameters_.penalty + "'");
+          Expression stiffness = penalty(patches);
           add_penalty(std::move(patches), std::move(displacement), std::move(stiffness),
                       load.region);
         }
@@ -277,6 +277,27 @@ namespace softcell
           add_force<Nitsche>(std::move(patches), std::move(displacement), materials_,
                              parameters_.nitsche_factor, load.region);
         }
+      }
+
+      /// The stiffness of the entry Penalty. What each patch has of its own goes into its weights.
+      Expression penalty(std::vector<SurfacePatch> &patches) const
+      {
+        const std::string place = "Loads/Penalty = '" + parameters_.penalty + "'";
+        if (parameters_.penalty != "automatic")
+        {
+          if (is_nodal()) // of each node in N/m, whatever its area
+            for (SurfacePatch &patch : patches)
+              patch.weights.assign(patch.weights.size(), 1.);
+          return Expression(parameters_.penalty, 1, place);
+        }
+        if (is_nodal())
+          throw BadInput(place + " knows no stiffness of nodes; give one in N/m, or choose "
+                                 "'Surface integration = exact'.");
+        for (SurfacePatch &patch : patches)
+          for (unsigned int q = 0; q < patch.weights.size(); ++q)
+            patch.weights[q] *=
+              materials_[patch.labels[q]].longitudinal_modulus() / patch.cell_size;
+        return Expression("10", 1, place);
       }
 
       void add_penalty(std::vector<SurfacePatch> patches,

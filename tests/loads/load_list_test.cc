@@ -105,7 +105,10 @@ namespace softcell
     EXPECT_TRUE(says(problem.complaint(grid, entries), "region 'base'"));
 
     problem.parameters.imposition = "penalty";
-    problem.parameters.penalty    = "100*10^t";
+    const double modulus = problem.materials[0].longitudinal_modulus(); // on cells of 1/4 m
+    EXPECT_NEAR(problem.loads(grid, entries).forces.at(0)->total_force(u, 1)[2],
+                10 * modulus / 0.25 * 0.1, 1e-8 * modulus);
+    problem.parameters.penalty = "100*10^t";
     EXPECT_NEAR(problem.loads(grid, entries).forces.at(0)->total_force(u, 1)[2], 100, 1e-10);
 
     problem.parameters.penalty = "-1e8";
@@ -115,6 +118,9 @@ namespace softcell
     EXPECT_NEAR(problem.loads(grid, entries).forces.at(0)->total_force(u, 1)[2], 900, 1e-10);
     problem.parameters.imposition = "Nitsche";
     EXPECT_TRUE(says(problem.complaint(grid, entries), "nodal has no Nitsche"));
+    problem.parameters.imposition = "automatic";
+    problem.parameters.penalty    = "automatic";
+    EXPECT_TRUE(says(problem.complaint(grid, entries), "Loads/Penalty = 'automatic' knows no"));
   }
 
   TEST(LoadList, KnowsWhatHoldsTheBody)

@@ -45,6 +45,7 @@ namespace
     EXPECT_NEAR(stress(Material("Saint-Venant-Kirchhoff", 10, 0.25)), 2 * 12 * 1.5, 1e-13);
     EXPECT_NEAR(stress(Material("linear", 10, 0.25)), 12, 1e-13);
     EXPECT_EQ(Material("linear", 10, 0.25, 1060).density(), 1060);
+    EXPECT_DOUBLE_EQ(Material("linear", 10, 0.25).longitudinal_modulus(), 12); // lambda = mu = 4
   }
 
   TEST(Material, NamesTheEntryThatCannotBe)

@@ -65,12 +65,13 @@ namespace softcell
   /// Shapes of a boundary piece that lies in one cell, and its points.
   struct SurfacePatch
   {
-    std::vector<unsigned int> nodes; // (n_nodes) local node numbers
+    unsigned int cell = 0;           // number of the patch of the cell
+    std::vector<unsigned int> nodes; // (n_nodes) local node numbers, those of that patch
     std::vector<Point> points;       // (n_points) in the reference configuration
     std::vector<Direction> normals;  // (n_points) unit outward normals there
     std::vector<double> weights;     // (n_points) Units: m^2
     ShapeTable shapes;
     std::vector<unsigned char> labels; // (n_points) material labels
-    double cell_size = 0;              // h of Nitsche's method. Units: m
+    double cell_size = 0;              // the scale of penalties is 1 / h. Units: m
   };
 } // namespace softcell

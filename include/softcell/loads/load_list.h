@@ -18,10 +18,10 @@ namespace softcell
   /// The fixed entries of the section Loads.
   struct LoadParameters
   {
-    Direction gravity;                             // m/s^2
-    std::string imposition          = "automatic"; // automatic, strong, penalty, Nitsche
-    std::string penalty             = "1e8"; // expression of x, y, z, t. Pa/m, or N/m if nodal
-    double nitsche_factor           = 10;
+    Direction gravity;                    // m/s^2
+    std::string imposition = "automatic"; // automatic, strong, penalty, Nitsche
+    std::string penalty    = "automatic"; // or an expression of x, y, z, t. Pa/m, or N/m if nodal
+    double nitsche_factor  = 10;
     std::string surface_integration = "exact"; // exact, nodal
 
     /// Declares the entries of the section, which the caller has entered.

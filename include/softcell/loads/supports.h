@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Displacements imposed by forces on the boundary: springs, penalty and Nitsche's method.
+// Displacements imposed by forces on the boundary: springs and penalty.
 #pragma once
 
 #include <softcell/discretization/evaluation.h>
@@ -41,8 +41,9 @@ namespace softcell
   /// 1/2 int k |u - g|^2 dA, the force on the body -k (u - g) per area (Brunet eq. 3.41, but a
   /// vector and not its norm). With g = 0 it is an elastic foundation.
   ///
-  /// On the patches of nodal_surface_patches() with weights 1 it is Brunet's penalty at surface
-  /// nodes (eq. 4.18 to 4.21) and k is in N/m.
+  /// A factor of k that differs from patch to patch may stand in their weights. With weights of 1
+  /// on nodal_surface_patches(), k is in N/m and this is Brunet's penalty at surface nodes (eq. 4.18
+  /// to 4.21).
   class Penalty : public Support
   {
   public:
@@ -60,52 +61,5 @@ namespace softcell
 
   private:
     Expression stiffness_;
-  };
-
-  /// Nitsche's method for finite strain, from the potential
-  ///   Pi = -int P(F) N . (u - g) dA + 1/2 int gamma/h |u - g|^2 dA,
-  ///   gamma = factor p^2 (lambda + 2 mu),
-  /// with h the size of the cell and p the degree of its shapes. The residual is its exact
-  /// derivative, so the exact solution satisfies the discrete equations. The tangent leaves out
-  /// the second derivative of P, which is multiplied by u - g: it is exact for the linear law and
-  /// symmetric always.
-  ///
-  /// The tangent of body and support is positive definite where factor p^2 exceeds the constant C
-  /// of the trace inequality, int |v|^2 dA <= C/h int |v|^2 dV for the gradients v of shapes:
-  /// (p + 1)^2 for a whole cell. It grows as the filled part of a cut cell vanishes, so slivers
-  /// need a larger factor.
-  class Nitsche : public Support
-  {
-  public:
-    /// @param materials one per label; they outlive this.
-    Nitsche(const Discretization &discretization,
-            std::vector<SurfacePatch> patches,
-            Expression displacement,
-            const std::vector<Material> &materials,
-            double factor,
-            std::string region);
-
-    /// Collective. @throws InvertedPoint on all ranks if a point of the surface is inverted.
-    void add_residual(const Vector &u, double t, Vector &r) const override;
-    void add_tangent(const Vector &u, double t, BlockMatrix &K) const override;
-    /// @throws InvertedPoint as above.
-    double energy(const Vector &u, double t) const override;
-    /// int P N dA - int gamma/h (u - g) dA.
-    Direction total_force(const Vector &u, double t) const override;
-
-  private:
-    /// The integrand's parts at a point of the surface.
-    struct Terms
-    {
-      Direction misfit;   // Units: m
-      Direction traction; // P N in the components that are held. Units: Pa
-      Gradient change;    // dP/dF : (misfit (x) N). Units: Pa m
-      double stiffness;   // gamma/h. Units: Pa/m
-    };
-    Terms terms(const SurfacePatch &patch, unsigned int q, const Vector &u, double t) const;
-    void check_admissible(const Vector &u) const;
-
-    const std::vector<Material> &materials_;
-    double factor_;
   };
 } // namespace softcell

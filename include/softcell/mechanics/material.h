@@ -34,6 +34,12 @@ namespace softcell
       return std::visit(std::forward<Function>(f), law_);
     }
 
+    /// lambda + 2 mu, the stiffness against strain along one axis alone. Units: Pa
+    double longitudinal_modulus() const
+    {
+      return visit([](const auto &law) { return law.lambda + 2 * law.mu; });
+    }
+
     /// Units: kg/m^3
     double density() const
     {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Displacements imposed by Nitsche's method.
+#pragma once
+
+#include <softcell/loads/supports.h>
+#include <softcell/mechanics/material.h>
+
+namespace softcell
+{
+  /// Nitsche's method for finite strain, from the potential
+  ///   Pi = -int theta P(F) N . (u - g) dA + 1/2 int gamma |u - g|^2 dA.
+  /// Residual and tangent are its exact derivatives.
+  ///
+  /// The volume of a sliver does not control the gradients of its shapes on its surface S. So F is
+  /// made of their projection, by the quadrature of the cell K that holds S, onto polynomials of
+  /// degree p - 1: at p = 1 their mean over what is filled. A linear displacement loses nothing by
+  /// it, a smooth one less than by the shapes. With polynomials phi_k that are orthonormal on K,
+  ///   int_S |v|^2 dA <= C int_K |v|^2 dV,   C = sum_k int_S phi_k^2 dA
+  /// for all such gradients v; at p = 1, C is the area of S by the volume of K and no smaller
+  /// number would do. With gamma = factor (lambda + 2 mu) C and factor > 1 the tangent of body and
+  /// support at rest is thus positive definite, however small the cut is. (A cell that bears n
+  /// supports needs factor > n, and strains that stiffen the material need some more.)
+  ///
+  /// A gamma without bound would hold the surface of slivers as if by hand. Beyond
+  /// `limit` (lambda + 2 mu)/h, h the size of the cell, it grows no more, and
+  /// theta^2 = gamma / (factor (lambda + 2 mu) C), elsewhere 1, keeps the tangent positive
+  /// definite: the support passes into a penalty, whose misfit is a thousandth of strain times h.
+  ///
+  /// Source: Embar, Dolbow, Harari (2010) on constants for each cell; de Prenter, Lehrenfeld,
+  /// Massing (2018) on what they do on slivers. Departure: the projection, which needs no
+  /// eigenvalue problem and has a finite C where a cell has fewer points than modes.
+  class Nitsche : public Support
+  {
+  public:
+    /// @param patches   the discretization's, not nodal ones.
+    /// @param materials one per label; they outlive this.
+    /// @param factor    safety over the stability bound, above 1.
+    Nitsche(const Discretization &discretization,
+            std::vector<SurfacePatch> patches,
+            Expression displacement,
+            const std::vector<Material> &materials,
+            double factor,
+            std::string region);
+
+    /// Collective. @throws InvertedPoint on all ranks if a point of the surface is inverted.
+    void add_residual(const Vector &u, double t, Vector &r) const override;
+    void add_tangent(const Vector &u, double t, BlockMatrix &K) const override;
+    /// @throws InvertedPoint as above.
+    double energy(const Vector &u, double t) const override;
+    /// int theta P N dA - int gamma (u - g) dA.
+    Direction total_force(const Vector &u, double t) const override;
+
+  private:
+    static constexpr double limit = 1000;
+
+    /// What a patch's terms are multiplied by.
+    struct Factors
+    {
+      double stiffness; // gamma / (lambda + 2 mu). Units: 1/m
+      double flux;      // theta
+    };
+    /// The integrand's parts at a point of the surface.
+    struct Terms
+    {
+      Matrix3<double> F;        // of the projected gradient
+      Direction misfit;         // Units: m
+      Direction traction;       // theta P N in the components that are held. Units: Pa
+      Matrix3<double> misfit_N; // theta misfit (x) N. Units: m
+      Matrix3<double> change;   // dP/dF : misfit_N. Units: Pa m
+      double stiffness;         // gamma. Units: Pa/m
+    };
+    Terms terms(unsigned int patch, unsigned int q, const Vector &u, double t) const;
+    /// How they change with one of the nine entries of F.
+    struct Derivatives
+    {
+      Direction traction;
+      Gradient change;
+    };
+    Derivatives
+    derivatives(unsigned int patch, unsigned int q, const Terms &at_q, unsigned int entry) const;
+    void check_admissible(const Vector &u) const;
+
+    const std::vector<Material> &materials_;
+    std::vector<Factors> factors_; // one per patch
+  };
+} // namespace softcell

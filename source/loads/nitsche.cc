@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Displacements imposed by Nitsche's method.
+
+#include <softcell/loads/nitsche.h>
+
+#include <softcell/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace softcell
+{
+  namespace
+  {
+    Matrix3<double>
+    deformation_gradient(const SurfacePatch &patch, const unsigned int q, const Vector &u)
+    {
+      const Gradient gradient = interpolate_gradient(patch.nodes, patch.shapes.gradient(q), u);
+      Matrix3<double> F       = identity<double>();
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+          F(a, b) += gradient[a][b];
+      return F;
+    }
+
+    /// Polynomials up to a degree at points, the first of which have weights: orthonormal there.
+    /// Those that the weighted points can hardly tell from others are left out.
+    std::vector<std::vector<double>> orthonormal_polynomials(const std::vector<Point> &points,
+                                                             const View<const double> weights,
+                                                             const unsigned int degree,
+                                                             const double scale)
+    {
+      const auto product = [&](const std::vector<double> &a, const std::vector<double> &b) {
+        double sum = 0;
+        for (unsigned int q = 0; q < weights.size(); ++q)
+          sum += weights[q] * a[q] * b[q];
+        return sum;
+      };
+      std::vector<std::vector<double>> basis;
+      for (unsigned int total = 0; total <= degree; ++total)
+        for (unsigned int i = 0; i <= total; ++i)
+          for (unsigned int j = 0; i + j <= total; ++j)
+          {
+            std::vector<double> next;
+            for (const Point &X : points)
+            {
+              const Direction x = (X - points[0]) / scale;
+              next.push_back(std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], total - i - j));
+            }
+            const double all = product(next, next);
+            for (unsigned int repeat = 0; repeat < 2; ++repeat) // against rounding
+              for (const std::vector<double> &one : basis)
+              {
+                const double part = product(next, one);
+                for (unsigned int q = 0; q < next.size(); ++q)
+                  next[q] -= part * one[q];
+              }
+            const double rest = product(next, next);
+            if (rest <= 1e-6 * all)
+              continue;
+            for (double &value : next)
+              value /= std::sqrt(rest);
+            basis.push_back(std::move(next));
+          }
+      return basis;
+    }
+
+    /// Projects the gradients of a surface's shapes as Nitsche says.
+    /// @return the constant C of this piece. Units: 1/m
+    double project_gradients(const Discretization &discretization, SurfacePatch &surface)
+    {
+      PatchStorage storage;
+      const Patch cell = discretization.patch(surface.cell, storage);
+      std::vector<Point> points;
+      discretization.patch_points(surface.cell, points);
+      points.insert(points.end(), surface.points.begin(), surface.points.end());
+
+      const unsigned int n = 3 * cell.n_nodes(), n_cell = cell.n_points();
+      std::fill(surface.shapes.gradients.begin(), surface.shapes.gradients.end(), 0.);
+      double constant = 0;
+      std::vector<double> moment(n);
+      for (const std::vector<double> &phi : orthonormal_polynomials(
+             points, cell.weights, discretization.degree() - 1, surface.cell_size))
+      {
+        std::fill(moment.begin(), moment.end(), 0.);
+        for (unsigned int q = 0; q < n_cell; ++q)
+          for (unsigned int i = 0; i < n; ++i)
+            moment[i] += cell.weights[q] * phi[q] * cell.shapes->gradient(q)[i];
+        for (unsigned int q = 0; q < surface.points.size(); ++q)
+        {
+          for (unsigned int i = 0; i < n; ++i)
+            surface.shapes.gradients[q * n + i] += phi[n_cell + q] * moment[i];
+          constant += surface.weights[q] * phi[n_cell + q] * phi[n_cell + q];
+        }
+      }
+      return constant;
+    }
+  } // namespace
+
+  Nitsche::Nitsche(const Discretization &discretization,
+                   std::vector<SurfacePatch> patches,
+                   Expression displacement,
+                   const std::vector<Material> &materials,
+                   const double factor,
+                   std::string region)
+      : Support(discretization, std::move(patches), std::move(displacement), std::move(region)),
+        materials_(materials)
+  {
+    std::map<unsigned int, double> constants; // of cells, of all their pieces of surface
+    for (SurfacePatch &patch : patches_)
+      constants[patch.cell] += project_gradients(discretization, patch);
+    for (const SurfacePatch &patch : patches_)
+    {
+      const double wanted    = factor * constants[patch.cell];
+      const double stiffness = std::min(wanted, limit / patch.cell_size);
+      factors_.push_back({stiffness, std::sqrt(stiffness / wanted)});
+    }
+  }
+
+  Nitsche::Terms
+  Nitsche::terms(const unsigned int p, const unsigned int q, const Vector &u, const double t) const
+  {
+    const SurfacePatch &patch = patches_[p];
+    const Direction &N        = patch.normals[q];
+    Terms terms;
+    terms.F      = deformation_gradient(patch, q, u);
+    terms.misfit = misfit(patch, q, u, t);
+    for (unsigned int a = 0; a < 3; ++a)
+      for (unsigned int b = 0; b < 3; ++b)
+        terms.misfit_N(a, b) = factors_[p].flux * terms.misfit[a] * N[b];
+    materials_[patch.labels[q]].visit([&](const auto &law) {
+      const Matrix3<double> P = law.first_piola_stress(terms.F);
+      for (unsigned int a = 0; a < 3; ++a)
+        if (!displacement_.is_free(a))
+          terms.traction[a] = factors_[p].flux * dot(P, a, N.begin_raw());
+      terms.change = law.linearisation(terms.F)(terms.misfit_N);
+    });
+    terms.stiffness = factors_[p].stiffness * materials_[patch.labels[q]].longitudinal_modulus();
+    return terms;
+  }
+
+  void Nitsche::check_admissible(const Vector &u) const
+  {
+    bool is_inverted = false;
+    for (const SurfacePatch &patch : patches_)
+      for (unsigned int q = 0; q < patch.points.size(); ++q)
+        materials_[patch.labels[q]].visit([&](const auto &law) {
+          is_inverted |= !law.is_admissible(determinant(deformation_gradient(patch, q, u)));
+        });
+    if (dealii::Utilities::MPI::logical_or(is_inverted, discretization_.communicator()))
+      throw InvertedPoint("the displacement inverts the body on region '" + region() + "'");
+  }
+
+  // dP[e_c (x) G_i] N . misfit is, by the major symmetry of dP/dF, row c of `change` times G_i.
+  void Nitsche::add_residual(const Vector &u, const double t, Vector &r) const
+  {
+    check_admissible(u);
+    for (unsigned int p = 0; p < patches_.size(); ++p)
+      for (unsigned int q = 0; q < patches_[p].points.size(); ++q)
+      {
+        const SurfacePatch &patch = patches_[p];
+        const Terms at_q          = terms(p, q, u, t);
+        const unsigned int n      = patch.nodes.size();
+        const double *const N     = patch.shapes.value(q);
+        const double *const G     = patch.shapes.gradient(q);
+        const Direction minus_f   = at_q.stiffness * at_q.misfit - at_q.traction;
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          const double G_i[] = {G[i], G[n + i], G[2 * n + i]};
+          for (unsigned int c = 0; c < 3; ++c)
+            r.local_element(3 * patch.nodes[i] + c) +=
+              patch.weights[q] * (minus_f[c] * N[i] - dot(at_q.change, c, G_i));
+        }
+      }
+  }
+
+  // With A = d(theta P N)/dF and D = d change/dF it is
+  // gamma N_i N_j - N_i A G_j - N_j A G_i - G_i D G_j.
+  void Nitsche::add_tangent(const Vector &u, const double t, BlockMatrix &K) const
+  {
+    std::vector<double> values;
+    std::vector<Gradient> AG; // (n) [a][b] = sum_B A_abB G_B
+    std::vector<Gradient> DG; // (n, b) [a][A] = sum_B D_aAbB G_B
+    for (unsigned int p = 0; p < patches_.size(); ++p)
+    {
+      const SurfacePatch &patch = patches_[p];
+      const unsigned int n      = patch.nodes.size();
+      values.assign(9 * n * n, 0.);
+      for (unsigned int q = 0; q < patch.points.size(); ++q)
+      {
+        const double *const N = patch.shapes.value(q);
+        const double *const G = patch.shapes.gradient(q);
+        const Terms at_q      = terms(p, q, u, t);
+        AG.assign(n, Gradient());
+        DG.assign(3 * n, Gradient());
+        for (unsigned int b = 0; b < 3; ++b)
+          for (unsigned int B = 0; B < 3; ++B)
+          {
+            const Derivatives along = derivatives(p, q, at_q, 3 * b + B);
+            for (unsigned int j = 0; j < n; ++j)
+            {
+              for (unsigned int a = 0; a < 3; ++a)
+                AG[j][a][b] += along.traction[a] * G[B * n + j];
+              DG[3 * j + b] += G[B * n + j] * along.change;
+            }
+          }
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const Direction G_i({G[i], G[n + i], G[2 * n + i]});
+            for (unsigned int b = 0; b < 3; ++b)
+              for (unsigned int j = 0; j < n; ++j)
+              {
+                double value = -N[i] * AG[j][a][b] - N[j] * AG[i][b][a] - DG[3 * j + b][a] * G_i;
+                if (a == b && !displacement_.is_free(a))
+                  value += at_q.stiffness * N[i] * N[j];
+                values[((a * n + i) * 3 + b) * n + j] += patch.weights[q] * value;
+              }
+          }
+      }
+      K.add(patch.nodes, values.data());
+    }
+  }
+
+  Nitsche::Derivatives Nitsche::derivatives(const unsigned int p,
+                                            const unsigned int q,
+                                            const Terms &at_q,
+                                            const unsigned int entry) const
+  {
+    const double step = 1e-6; // no law offers third derivatives of its energy
+    Matrix3<double> along{};
+    along.entries[entry] = 1;
+    Derivatives result;
+    materials_[patches_[p].labels[q]].visit([&](const auto &law) {
+      const Matrix3<double> dP         = law.linearisation(at_q.F)(along);
+      const Matrix3<double> difference = law.linearisation(at_q.F + step * along)(at_q.misfit_N) -
+                                         law.linearisation(at_q.F - step * along)(at_q.misfit_N);
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        if (!displacement_.is_free(a))
+          result.traction[a] = factors_[p].flux * dot(dP, a, patches_[p].normals[q].begin_raw());
+        for (unsigned int b = 0; b < 3; ++b)
+          result.change[a][b] = difference(a, b) / (2 * step);
+      }
+    });
+    return result;
+  }
+
+  double Nitsche::energy(const Vector &u, const double t) const
+  {
+    check_admissible(u);
+    double sum = 0;
+    for (unsigned int p = 0; p < patches_.size(); ++p)
+      for (unsigned int q = 0; q < patches_[p].points.size(); ++q)
+      {
+        const Terms at_q = terms(p, q, u, t);
+        sum += patches_[p].weights[q] * (0.5 * at_q.stiffness * at_q.misfit - at_q.traction) *
+               at_q.misfit;
+      }
+    return dealii::Utilities::MPI::sum(sum, discretization_.communicator());
+  }
+
+  Direction Nitsche::total_force(const Vector &u, const double t) const
+  {
+    Direction total;
+    for (unsigned int p = 0; p < patches_.size(); ++p)
+      for (unsigned int q = 0; q < patches_[p].points.size(); ++q)
+      {
+        const Terms at_q = terms(p, q, u, t);
+        total += patches_[p].weights[q] * (at_q.traction - at_q.stiffness * at_q.misfit);
+      }
+    return dealii::Utilities::MPI::sum(total, discretization_.communicator());
+  }
+} // namespace softcell
