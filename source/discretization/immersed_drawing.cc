@@ -5,6 +5,8 @@
 #include <vtkCellType.h>
 #include <vtkHigherOrderHexahedron.h>
 
+#include <cmath>
+
 namespace softcell
 {
   DrawnCells Immersed::drawn_cells() const
@@ -16,45 +18,42 @@ namespace softcell
         for (int l = 0; l <= p; ++l, ++i)
           place_in_vtk[i] = vtkHigherOrderHexahedron::PointIndexFromIJK(l, j, k, order);
 
+    // VTK's cells have equidistant points, ours Gauss-Lobatto's: the same up to degree 2
+    std::vector<Point> unit_points;
+    for (int k = 0; k <= p; ++k)
+      for (int j = 0; j <= p; ++j)
+        for (int l = 0; l <= p; ++l)
+          unit_points.emplace_back(double(l) / p, double(j) / p, double(k) / p);
+
     DrawnCells drawn;
     drawn.offsets = {0};
     std::vector<unsigned int> point_of_node(node_positions_.size(), none);
-    const auto add_point = [&](const Point &X, std::vector<unsigned int> n, std::vector<double> v) {
-      drawn.points.push_back(X);
-      drawn.shapes.push_back({std::move(n), std::move(v), {}, 0});
-      return static_cast<unsigned int>(drawn.points.size() - 1);
-    };
+    ShapeTable shapes;
     for (unsigned int c = 0; c < cells_.size(); ++c)
     {
-      const Cell &cell   = cells_[c];
-      const auto masters = nodes(c);
-      const Box box      = lattice_.box(cell.place);
-      std::vector<unsigned int> corners(shapes_.n_nodes());
-      for (unsigned int i = 0; i < shapes_.n_nodes(); ++i)
+      const Cell &cell = cells_[c];
+      const Box box    = lattice_.box(cell.place);
+      evaluate(c, unit_points, shapes);
+      std::vector<unsigned int> corners(unit_points.size());
+      for (unsigned int i = 0; i < corners.size(); ++i)
       {
-        // a hanging node gets a point of its own in each cell
-        std::vector<unsigned int> n = {masters[std::min<unsigned int>(i, masters.size() - 1)]};
-        std::vector<double> v       = {1};
-        if (cell.has_hanging())
+        PointShapes here;
+        for (unsigned int m = 0; m < shapes.n_nodes; ++m)
+          if (const double N = shapes.value(i)[m]; std::abs(N) > 1e-12)
+          {
+            here.nodes.push_back(nodes(c)[m]);
+            here.values.push_back(N);
+          }
+        // cells share the points that are nodes; all others each cell has for itself
+        unsigned int own    = none;
+        unsigned int &point = here.nodes.size() == 1 ? point_of_node[here.nodes[0]] : own;
+        if (point == none)
         {
-          n.clear();
-          v.clear();
-          for (unsigned int m = 0; m < masters.size(); ++m)
-            if (const double f = condensations_[cell.hanging + i * masters.size() + m])
-            {
-              n.push_back(masters[m]);
-              v.push_back(f);
-            }
+          point = drawn.points.size();
+          drawn.points.push_back(box.unit_to_real(unit_points[i]));
+          drawn.shapes.push_back(std::move(here));
         }
-        if (n.size() > 1)
-          corners[place_in_vtk[i]] = add_point(box.unit_to_real(shapes_.node(i)), n, v);
-        else
-        {
-          unsigned int &point = point_of_node[n[0]];
-          if (point == none)
-            point = add_point(node_positions_[n[0]], n, v);
-          corners[place_in_vtk[i]] = point;
-        }
+        corners[place_in_vtk[i]] = point;
       }
       drawn.connectivity.insert(drawn.connectivity.end(), corners.begin(), corners.end());
       drawn.offsets.push_back(drawn.connectivity.size());
