@@ -137,6 +137,7 @@ namespace softcell
     all.cut_cells          = dealii::Utilities::MPI::sum(mine.cut_cells, communicator());
     all.integration_points = dealii::Utilities::MPI::sum(mine.integration_points, communicator());
     all.unknowns           = partitioner_->size();
+    all.cell_size          = std::cbrt(lattice_.box({{{0, 0, 0}}, coarsest_size_}).volume());
     return all;
   }
 

@@ -265,10 +265,10 @@ namespace softcell
   double Simulation::cell_size() const
   {
     const DiscretizationParameters &parameters = parameters_.discretization;
+    if (size_.cell_size > 0)
+      return size_.cell_size;
     if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
       return parameters.mesh.size;
-    if (parameters.method != "tetrahedra" && parameters.grid.cell_size > 0)
-      return parameters.grid.cell_size;
     const Box box = body_.bounding_box();
     return std::min({box.side_length(0), box.side_length(1), box.side_length(2)}) /
            parameters.grid.cells[0];

@@ -50,3 +50,18 @@ TEST(Simulation, material_of_unknown_label_is_refused)
   p.load_entries          = {{"floor", "clamp"}};
   EXPECT_THROW(solve(p), BadInput);
 }
+
+TEST(Simulation, tells_the_edge_of_its_cells)
+{
+  Parameters p                  = body_of("box", {"weighted cell", 1}, 2);
+  p.regions                     = {{"floor", "z < 1e-9"}};
+  p.load_entries                = {{"floor", "clamp"}};
+  p.discretization.grid.scale   = 1.2;
+  p.discretization.grid.padding = 0.1; // 1.2 m + 0.2 m in two cells, which are halved at the skin
+  EXPECT_NEAR(solve(p).row.number("cell_size"), 0.7, 1e-12);
+  p.discretization.grid.surface_refinement = 1;
+  EXPECT_NEAR(solve(p).row.number("cell_size"), 0.7, 1e-12);
+  p.discretization.method    = "tetrahedra";
+  p.discretization.mesh.size = 0.4;
+  EXPECT_NEAR(solve(p).row.number("cell_size"), 0.4, 1e-12);
+}

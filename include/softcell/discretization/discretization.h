@@ -53,6 +53,7 @@ namespace softcell
   {
     std::size_t cells = 0, cut_cells = 0, unknowns = 0,
                 integration_points = 0; // summed over all ranks
+    double cell_size = 0; // edge of a background grid's largest cells, 0 of a mesh. Units: m
   };
 
   /// Unknowns, and the patches on which they are integrated.

@@ -73,7 +73,8 @@ namespace softcell
     /// Adds the state at a load factor to solution.pvd and makes it the checkpoint, once.
     void write_state(const std::filesystem::path &folder, double load_factor);
 
-    /// Nominal edge of a cell, by which rates are observed. Units: m
+    /// Edge of a cell, by which rates are observed: of the largest in a background grid; in a mesh
+    /// that which was asked for. Units: m
     double cell_size() const;
 
     std::string name_;
