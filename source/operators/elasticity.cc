@@ -133,9 +133,8 @@ namespace softcell
   {
     std::vector<std::vector<unsigned int>> lists;
     lists.reserve(discretization_.n_patches());
-    for_each_patch([&](unsigned int, const Patch &patch) {
-      lists.emplace_back(patch.nodes.begin(), patch.nodes.end());
-    });
+    for (unsigned int i = 0; i < discretization_.n_patches(); ++i)
+      lists.push_back(discretization_.patch_nodes(i));
     return lists;
   }
 

@@ -98,6 +98,14 @@ namespace softcell
     /// Patch i of this rank. What it looks at stays valid until `storage` is used again.
     virtual Patch patch(unsigned int i, PatchStorage &storage) const = 0;
 
+    /// The nodes of patch i, for those who need no more of it.
+    virtual std::vector<unsigned int> patch_nodes(const unsigned int i) const
+    {
+      PatchStorage storage;
+      const auto nodes = patch(i, storage).nodes;
+      return {nodes.begin(), nodes.end()};
+    }
+
     /// Reference positions of a patch's points, in the order of its weights.
     virtual void patch_points(unsigned int i, std::vector<Point> &points) const = 0;
 

@@ -51,6 +51,10 @@ namespace softcell
       return cells_.size();
     }
     Patch patch(unsigned int i, PatchStorage &storage) const override;
+    std::vector<unsigned int> patch_nodes(unsigned int i) const override
+    {
+      return {nodes(i).begin(), nodes(i).end()};
+    }
     void patch_points(unsigned int i, std::vector<Point> &points) const override;
 
     /// A piece outside the active cells goes to the nearest one, extended.
