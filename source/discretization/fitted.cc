@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Finite elements on conforming meshes: tetrahedra P1, P2 and hexahedra Q1, Q2, ...
-#include <softcell/base/exceptions.h>
 #include <softcell/discretization/fitted.h>
-#include <softcell/discretization/hexahedral_mesh.h>
-#include <softcell/discretization/tetrahedral_mesh.h>
+
+#include "reference_element.h"
+
+#include <softcell/base/exceptions.h>
 #include <softcell/geometry/surface.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
@@ -33,92 +32,6 @@ namespace softcell
   namespace
   {
     using Mesher = parallel::shared::Triangulation<3>;
-
-    /// Shapes and their derivatives on the reference cell.
-    ShapeTable reference_shapes(const FiniteElement<3> &element, const std::vector<Point> &points)
-    {
-      ShapeTable table;
-      const unsigned int n = element.n_dofs_per_cell();
-      table.resize(points.size(), n);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          table.values[q * n + i] = element.shape_value(i, points[q]);
-          const Direction dN      = element.shape_grad(i, points[q]);
-          for (unsigned int d = 0; d < 3; ++d)
-            table.gradients[(q * 3 + d) * n + i] = dN[d];
-        }
-      return table;
-    }
-
-    /// What all faces of one number have in common.
-    struct ReferenceFace
-    {
-      std::vector<unsigned int> nodes; // of the cell, that lie on the face
-      Direction tangents[2];           // span the face; their cross product points outward
-      Point centre;
-      std::vector<Point> points;       // of the quadrature rule
-      ShapeTable shapes, centre_shape; // at the points and at the centre
-    };
-
-    ReferenceFace reference_face(const FiniteElement<3> &element,
-                                 const unsigned int face,
-                                 const Quadrature<2> &rule)
-    {
-      const ReferenceCell cell = element.reference_cell();
-      Point corners[3];
-      for (unsigned int v = 0; v < 3; ++v)
-        corners[v] = cell.vertex<3>(cell.face_to_cell_vertices(face, v, 1));
-
-      ReferenceFace result;
-      result.tangents[0] = corners[1] - corners[0];
-      result.tangents[1] = corners[2] - corners[0];
-      if (cross_product_3d(result.tangents[0], result.tangents[1]) *
-            (corners[0] - cell.barycenter<3>()) <
-          0)
-        std::swap(result.tangents[0], result.tangents[1]);
-
-      const auto place = [&](const dealii::Point<2> &p) {
-        return corners[0] + p[0] * result.tangents[0] + p[1] * result.tangents[1];
-      };
-      for (const auto &p : rule.get_points())
-        result.points.push_back(place(p));
-      result.shapes       = reference_shapes(element, result.points);
-      result.centre       = place(cell.face_reference_cell(face).barycenter<2>());
-      result.centre_shape = reference_shapes(element, {result.centre});
-
-      const Direction normal = cross_product_3d(result.tangents[0], result.tangents[1]);
-      const auto &nodes      = element.get_unit_support_points();
-      for (unsigned int i = 0; i < nodes.size(); ++i)
-        if (std::abs((nodes[i] - corners[0]) * normal) < 1e-10)
-          result.nodes.push_back(i);
-      return result;
-    }
-
-    std::unique_ptr<FiniteElement<3>> make_element(const Mesh &mesh, const unsigned int degree)
-    {
-      if (degree < 1 || (mesh.corners_per_cell == 4 && degree > 2))
-        throw BadInput("Discretization/Degree = " + std::to_string(degree) +
-                       ": tetrahedra are available with degree 1 and 2, hexahedra from degree 1.");
-      if (mesh.corners_per_cell == 4)
-        return std::make_unique<FE_SimplexP<3>>(degree);
-      return std::make_unique<FE_Q<3>>(QIterated<1>(QTrapezoid<1>(), degree));
-    }
-
-    Quadrature<3> cell_rule(const Mesh &mesh, const unsigned int degree)
-    {
-      if (mesh.corners_per_cell == 4)
-        return degree == 1 ? Quadrature<3>(QGaussSimplex<3>(1))
-                           : QWitherdenVincentSimplex<3>(1, /*odd order*/ false);
-      return QGauss<3>(degree + 1);
-    }
-
-    Quadrature<2> face_rule(const Mesh &mesh, const unsigned int degree)
-    {
-      if (mesh.corners_per_cell == 4)
-        return QWitherdenVincentSimplex<2>(degree + 1);
-      return QGauss<2>(degree + 1);
-    }
 
     void fill(Mesher &triangulation, const Mesh &mesh)
     {
@@ -177,11 +90,7 @@ namespace softcell
       Direction normal;
     };
 
-    std::unique_ptr<FiniteElement<3>> element;
-    Quadrature<3> rule;
-    Quadrature<2> boundary_rule;
-    ShapeTable shapes; // at the rule's points, on the reference cell
-    std::vector<ReferenceFace> reference_faces;
+    const ReferenceElement reference;
 
     std::vector<unsigned int> nodes;          // (n_cells, n_nodes)
     std::vector<unsigned char> labels;        // (n_cells)
@@ -192,11 +101,14 @@ namespace softcell
     unsigned int n_faces = 0; // on the boundary, of all ranks
     const std::vector<Point> &positions;
 
-    Data(const std::vector<Point> &node_positions) : positions(node_positions) {}
+    Data(const Mesh &mesh, const unsigned int degree, const std::vector<Point> &node_positions)
+        : reference(mesh.corners_per_cell, degree), positions(node_positions)
+    {
+    }
 
     unsigned int n_nodes() const
     {
-      return shapes.n_nodes;
+      return reference.n_nodes();
     }
     View<const unsigned int> nodes_of(const unsigned int cell) const
     {
@@ -220,14 +132,14 @@ namespace softcell
       return J;
     }
     /// dN/dX from dN/dxi, both (3, n_nodes).
-    void transform(const Tensor<2, 3> &J, const double *reference, double *gradients) const
+    void transform(const Tensor<2, 3> &J, const double *dN, double *gradients) const
     {
       const Tensor<2, 3> inverse = invert(J);
       const unsigned int n       = n_nodes();
       for (unsigned int c = 0; c < 3; ++c)
         for (unsigned int i = 0; i < n; ++i)
-          gradients[c * n + i] = reference[i] * inverse[0][c] + reference[n + i] * inverse[1][c] +
-                                 reference[2 * n + i] * inverse[2][c];
+          gradients[c * n + i] =
+            dN[i] * inverse[0][c] + dN[n + i] * inverse[1][c] + dN[2 * n + i] * inverse[2][c];
     }
     /// Normal times what the face's tangents span.
     Direction area_vector(const View<const unsigned int> &cell,
@@ -240,8 +152,9 @@ namespace softcell
     double volume(const unsigned int cell) const
     {
       double result = 0;
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        result += rule.weight(q) * determinant(jacobian(nodes_of(cell), shapes.gradient(q)));
+      for (unsigned int q = 0; q < reference.rule.size(); ++q)
+        result += reference.rule.weight(q) *
+                  determinant(jacobian(nodes_of(cell), reference.shapes.gradient(q)));
       return result;
     }
 
@@ -256,19 +169,13 @@ namespace softcell
                  const Mesh &mesh,
                  const unsigned int degree,
                  const Body &body)
-      : data_(std::make_unique<Data>(node_positions_))
+      : data_(std::make_unique<Data>(mesh, degree, node_positions_))
   {
-    data_->element       = make_element(mesh, degree);
-    data_->rule          = cell_rule(mesh, degree);
-    data_->boundary_rule = face_rule(mesh, degree);
-    data_->shapes        = reference_shapes(*data_->element, data_->rule.get_points());
-    for (const unsigned int f : data_->element->reference_cell().face_indices())
-      data_->reference_faces.push_back(reference_face(*data_->element, f, data_->boundary_rule));
-
+    const FiniteElement<3> &element = *data_->reference.element;
     Mesher triangulation(communicator, Triangulation<3>::none, true, Mesher::partition_metis);
     fill(triangulation, mesh);
     DoFHandler<3> numbering(triangulation);
-    numbering.distribute_dofs(*data_->element);
+    numbering.distribute_dofs(element);
     partitioner_ = unknowns(numbering.locally_owned_dofs(),
                             DoFTools::extract_locally_active_dofs(numbering), communicator);
 
@@ -277,8 +184,7 @@ namespace softcell
       mapping = std::make_unique<MappingFE<3>>(FE_SimplexP<3>(1));
     else
       mapping = std::make_unique<MappingQ<3>>(degree);
-    FEValues<3> places(*mapping, *data_->element,
-                       Quadrature<3>(data_->element->get_unit_support_points()),
+    FEValues<3> places(*mapping, element, Quadrature<3>(element.get_unit_support_points()),
                        update_quadrature_points);
     std::vector<types::global_dof_index> numbers(data_->n_nodes());
     node_positions_.resize((partitioner_->locally_owned_size() + partitioner_->n_ghost_indices()) /
@@ -311,11 +217,11 @@ namespace softcell
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
           {
-            const ReferenceFace &reference = reference_faces[f];
-            const auto cell_nodes          = nodes_of(number);
+            const ReferenceFace &shape = reference.faces[f];
+            const auto cell_nodes      = nodes_of(number);
             Face face{number, f, 0, {}, {}};
-            face.centre = position(cell_nodes, reference.centre_shape.value(0));
-            face.normal = area_vector(cell_nodes, reference, reference.centre_shape.gradient(0));
+            face.centre = position(cell_nodes, shape.centre_shape.value(0));
+            face.normal = area_vector(cell_nodes, shape, shape.centre_shape.gradient(0));
             face.normal /= face.normal.norm();
             face.patch = patches_known
                            ? cell->face(f)->boundary_id()
@@ -349,8 +255,8 @@ namespace softcell
       boxes.emplace_back(cell_box, cell);
 
       bool good = true;
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        good &= determinant(jacobian(nodes_of(cell), shapes.gradient(q))) > 0;
+      for (unsigned int q = 0; q < reference.rule.size(); ++q)
+        good &= determinant(jacobian(nodes_of(cell), reference.shapes.gradient(q))) > 0;
       n_bad += !good;
     }
     tree = pack_rtree(boxes);
@@ -365,7 +271,7 @@ namespace softcell
     box = box_of(lowest, highest);
 
     size.cells              = Utilities::MPI::sum(labels.size(), communicator);
-    size.integration_points = size.cells * rule.size();
+    size.integration_points = size.cells * reference.rule.size();
     n_faces                 = Utilities::MPI::sum(faces.size(), communicator);
     n_bad                   = Utilities::MPI::sum(n_bad, communicator);
     if (n_bad > 0)
@@ -396,27 +302,27 @@ namespace softcell
 
   SurfacePatch Fitted::Data::surface_patch(const Face &face) const
   {
-    const auto cell                = nodes_of(face.cell);
-    const ReferenceFace &reference = reference_faces[face.number];
+    const auto cell            = nodes_of(face.cell);
+    const ReferenceFace &shape = reference.faces[face.number];
+    const Quadrature<2> &rule  = reference.face_rule;
     SurfacePatch result;
     result.cell = face.cell;
     result.nodes.assign(cell.begin(), cell.end());
-    result.shapes = reference.shapes;
-    result.labels.assign(boundary_rule.size(), labels[face.cell]);
+    result.shapes = shape.shapes;
+    result.labels.assign(rule.size(), labels[face.cell]);
     double area = 0;
-    for (unsigned int q = 0; q < boundary_rule.size(); ++q)
+    for (unsigned int q = 0; q < rule.size(); ++q)
     {
-      const double *dN  = reference.shapes.gradient(q);
-      const Direction a = area_vector(cell, reference, dN);
-      result.points.push_back(position(cell, reference.shapes.value(q)));
+      const double *dN  = shape.shapes.gradient(q);
+      const Direction a = area_vector(cell, shape, dN);
+      result.points.push_back(position(cell, shape.shapes.value(q)));
       result.normals.push_back(a / a.norm());
-      result.weights.push_back(boundary_rule.weight(q) * a.norm());
+      result.weights.push_back(rule.weight(q) * a.norm());
       transform(jacobian(cell, dN), dN, result.shapes.gradients.data() + q * 3 * n_nodes());
       area += result.weights.back();
     }
     // The cell's height over the face.
-    const bool tetrahedron = element->reference_cell() == ReferenceCells::Tetrahedron;
-    result.cell_size       = (tetrahedron ? 3 : 1) * volume(face.cell) / area;
+    result.cell_size = (reference.is_tetrahedron() ? 3 : 1) * volume(face.cell) / area;
     return result;
   }
 
@@ -424,13 +330,13 @@ namespace softcell
   /// point of the cell whose reference coordinates are nearest to those.
   std::pair<Point, double> Fitted::Data::locate(const unsigned int cell, const Point &X) const
   {
-    const ReferenceCell shape = element->reference_cell();
+    const ReferenceCell shape = reference.element->reference_cell();
     const auto nodes_here     = nodes_of(cell);
     Point xi                  = shape.barycenter<3>();
     bool converged            = false;
     for (unsigned int iteration = 0; iteration < 20 && !converged; ++iteration)
     {
-      const ShapeTable here = reference_shapes(*element, {xi});
+      const ShapeTable here = reference.shapes_at({xi});
       const Tensor<2, 3> J  = jacobian(nodes_here, here.gradient(0));
       if (!(determinant(J) > 0))
         break;
@@ -442,14 +348,14 @@ namespace softcell
     Point inside = xi;
     for (unsigned int d = 0; d < 3; ++d)
       inside[d] = std::max(inside[d], 0.);
-    if (shape == ReferenceCells::Tetrahedron)
+    if (reference.is_tetrahedron())
       inside /= std::max(inside[0] + inside[1] + inside[2], 1.);
     else
       for (unsigned int d = 0; d < 3; ++d)
         inside[d] = std::min(inside[d], 1.);
     if (converged && inside.distance(xi) < 1e-10)
       return {xi, 0.};
-    const ShapeTable there = reference_shapes(*element, {inside});
+    const ShapeTable there = reference.shapes_at({inside});
     return {converged ? xi : inside, X.distance(position(nodes_here, there.value(0)))};
   }
 
@@ -462,7 +368,7 @@ namespace softcell
 
   unsigned int Fitted::degree() const
   {
-    return data_->element->degree;
+    return data_->reference.element->degree;
   }
 
   unsigned int Fitted::n_patches() const
@@ -472,7 +378,7 @@ namespace softcell
 
   Patch Fitted::patch(const unsigned int i, PatchStorage &storage) const
   {
-    const ShapeTable &reference = data_->shapes;
+    const ShapeTable &reference = data_->reference.shapes;
     Patch patch;
     patch.nodes    = data_->nodes_of(i);
     storage.shapes = reference;
@@ -480,7 +386,7 @@ namespace softcell
     for (unsigned int q = 0; q < reference.n_points; ++q)
     {
       const Tensor<2, 3> J = data_->jacobian(patch.nodes, reference.gradient(q));
-      storage.weights[q]   = data_->rule.weight(q) * determinant(J);
+      storage.weights[q]   = data_->reference.rule.weight(q) * determinant(J);
       data_->transform(J, reference.gradient(q),
                        storage.shapes.gradients.data() + q * 3 * reference.n_nodes);
     }
@@ -492,9 +398,9 @@ namespace softcell
 
   void Fitted::patch_points(const unsigned int i, std::vector<Point> &points) const
   {
-    points.resize(data_->rule.size());
+    points.resize(data_->reference.rule.size());
     for (unsigned int q = 0; q < points.size(); ++q)
-      points[q] = data_->position(data_->nodes_of(i), data_->shapes.value(q));
+      points[q] = data_->position(data_->nodes_of(i), data_->reference.shapes.value(q));
   }
 
   std::vector<SurfacePatch> Fitted::surface_patches(const Region &region) const
@@ -509,7 +415,7 @@ namespace softcell
   {
     Vector marks = make_vector();
     for (const Data::Face *face : data_->faces_in(region, communicator()))
-      for (const unsigned int i : data_->reference_faces[face->number].nodes)
+      for (const unsigned int i : data_->reference.faces[face->number].nodes)
         marks.local_element(3 * data_->nodes_of(face->cell)[i]) = 1;
     // A face is seen by one rank only, its nodes by several.
     marks.compress(VectorOperation::add);
@@ -552,7 +458,7 @@ namespace softcell
 
     const auto [xi, cell] = *best;
     const auto nodes      = data_->nodes_of(cell);
-    ShapeTable here       = reference_shapes(*data_->element, {xi});
+    ShapeTable here       = data_->reference.shapes_at({xi});
     PointShapes result;
     result.nodes.assign(nodes.begin(), nodes.end());
     result.gradients.resize(3 * nodes.size());
@@ -571,7 +477,7 @@ namespace softcell
   DrawnCells Fitted::drawn_cells() const
   {
     const unsigned int n   = data_->n_nodes();
-    const bool tetrahedron = data_->element->reference_cell() == ReferenceCells::Tetrahedron;
+    const bool tetrahedron = data_->reference.is_tetrahedron();
     const int p            = degree();
     const int order[]      = {p, p, p, int(n)};
 
@@ -579,7 +485,7 @@ namespace softcell
     std::vector<unsigned int> node_of_vtk(n);
     for (unsigned int i = 0; i < n; ++i)
     {
-      const Point xi      = p * data_->element->unit_support_point(i);
+      const Point xi      = p * data_->reference.element->unit_support_point(i);
       const auto number   = tetrahedron
                               ? i
                               : vtkHigherOrderHexahedron::PointIndexFromIJK(
