@@ -50,7 +50,7 @@ namespace softcell
         arguments.help = true;
       else if (words[i] == "--version")
         arguments.version = true;
-      else if (words[i].rfind("-", 0) == 0)
+      else if (words[i].rfind('-', 0) == 0)
         throw BadInput("There is no option " + words[i] + "; see softcell --help.");
       else if (!arguments.file.empty())
         throw BadInput("Give one parameter file, not " + arguments.file + " and " + words[i] + ".");

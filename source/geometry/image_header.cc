@@ -68,7 +68,7 @@ namespace softcell
 
       std::string needed_text(const std::initializer_list<const char *> &names) const
       {
-        const std::string value = text(names);
+        std::string value = text(names);
         if (value.empty())
           refuse_image(file_, "the header has no entry '" + std::string(*names.begin()) + "'.");
         return value;

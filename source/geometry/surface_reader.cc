@@ -276,7 +276,7 @@ namespace softcell
     class PlyReader
     {
     public:
-      explicit PlyReader(Text text) : text_(std::move(text)) {}
+      explicit PlyReader(Text text) : text_(text) {}
 
       SurfaceSoup read()
       {
