@@ -42,8 +42,8 @@ namespace softcell
   /// vector and not its norm). With g = 0 it is an elastic foundation.
   ///
   /// A factor of k that differs from patch to patch may stand in their weights. With weights of 1
-  /// on nodal_surface_patches(), k is in N/m and this is Brunet's penalty at surface nodes (eq. 4.18
-  /// to 4.21).
+  /// on nodal_surface_patches(), k is in N/m and this is Brunet's penalty at surface nodes
+  /// (eq. 4.18 to 4.21).
   class Penalty : public Support
   {
   public:
