@@ -5,7 +5,6 @@
 usage: run_program.py SOFTCELL GROUP
 GROUP is one of command_line, bad_input, ranks, checkpoints, methods, organ.
 """
-import csv
 import json
 import math
 import os
@@ -16,80 +15,14 @@ import sys
 import tempfile
 import time
 
+import program
 from bad_inputs import BAD_INPUTS, write_files
+from program import BAR, GOOD_SURFACE, ROOT, check, failures, rows, softcell
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
 # Of a row of results.csv, what need not be the same on any number of ranks.
 NOT_COMPARED = {"newton_iterations", "linear_iterations", "setup_s", "assembly_s", "solve_s", "total_s",
                 "peak_rss_mib"}
-# A bending bar, small enough to run in a second.
-BAR = """
-subsection Geometry
-  set Type   = cylinder
-  set Radius = 0.05
-  set Length = 0.2
-end
-subsection Regions
-  set base = z < 1e-6
-  set top  = z > 0.2 - 1e-6
-end
-subsection Material
-  set Young modulus = 5000
-  set Poisson ratio = 0.3
-end
-subsection Discretization
-  set Cells      = 4
-  set Cut levels = 2
-  set Mesh size  = 0.025
-end
-subsection Loads
-  set base = clamp
-  set top  = traction 0, -30, 0
-end
-subsection Solver
-  set Residual tolerance = 1e-11
-  set Linear tolerance   = 1e-12
-end
-subsection Probes
-  set tip = 0, 0, 0.2
-end
-"""
-GOOD_SURFACE = """
-subsection Geometry
-  set Type = surface
-end
-subsection Regions
-  set base = z < 1e-6
-end
-subsection Discretization
-  set Cells = 4
-end
-subsection Loads
-  set base = clamp
-end
-"""
 SKIPPED = 77  # exit status
-failures = []
-
-
-def check(condition, message):
-    if not condition:
-        failures.append(message)
-        print("FAILED:", message)
-
-
-def softcell(*arguments, ranks=1, folder="."):
-    """Runs the program; its exit status, its output and its error output."""
-    mpi = [] if ranks == 1 else [*MPIRUN, "-n", str(ranks)]
-    run = subprocess.run([*mpi, PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, timeout=600,
-                         stdin=subprocess.DEVNULL, env={**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1"})
-    return run.returncode, run.stdout, run.stderr
-
-
-def rows(file):
-    with open(file, newline="") as stream:
-        return list(csv.DictReader(stream))
 
 
 def command_line(folder):
@@ -213,7 +146,7 @@ end
     check([f'timestep="{t}"' in states for t in (0.05, 0.025, 1)] == [True, False, True] and states.count("file=") == 20,
           f"every second load step is a state: {states}")
 
-    run = subprocess.Popen([PROGRAM, "bar.prm", *steps, "--output", "killed"], cwd=folder, stdout=subprocess.DEVNULL)
+    run = subprocess.Popen([program.executable, "bar.prm", *steps, "--output", "killed"], cwd=folder, stdout=subprocess.DEVNULL)
     while run.poll() is None and not (folder / "killed" / "checkpoint.h5").exists():
         time.sleep(0.001)
     run.kill()
@@ -303,7 +236,7 @@ def organ(folder):
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
-PROGRAM = os.path.abspath(sys.argv[1])
+program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
      "methods": methods, "organ": organ}[sys.argv[2]](
