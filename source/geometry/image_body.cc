@@ -174,21 +174,31 @@ namespace softcell
         labels_.insert(labels_.end(), row + low[0], row + high[0]);
       }
 
+    filled_ = sum_up([](const std::uint8_t voxel) { return voxel != 0; });
+    for (unsigned int bit = 0; (names_.size() - 1) >> bit != 0; ++bit)
+      with_bit_.push_back(sum_up(
+        [&](const std::uint8_t voxel) { return voxel != 0 && ((voxel - 1) >> bit & 1) != 0; }));
+  }
+
+  template <class Counts>
+  ImageBody::Sums ImageBody::sum_up(const Counts &counts) const
+  {
     const std::size_t row = size_[0] + 1, slice = row * (size_[1] + 1);
-    sums_.assign(slice * (size_[2] + 1), 0);
+    Sums sums(slice * (size_[2] + 1), 0);
     const std::uint8_t *voxel = labels_.data();
     for (unsigned int k = 1; k <= size_[2]; ++k)
       for (unsigned int j = 1; j <= size_[1]; ++j)
       {
-        std::uint32_t *sum          = &sums_[k * slice + j * row];
+        std::uint32_t *sum          = &sums[k * slice + j * row];
         const std::uint32_t *before = sum - row, *below = sum - slice, *both = below - row;
         std::uint32_t in_row = 0;
         for (unsigned int i = 1; i <= size_[0]; ++i)
         {
-          in_row += *voxel++ != 0;
+          in_row += counts(*voxel++);
           sum[i] = in_row + before[i] + below[i] - both[i];
         }
       }
+    return sums;
   }
 
   Box ImageBody::bounding_box() const
@@ -225,12 +235,12 @@ namespace softcell
     return ranges;
   }
 
-  std::uint32_t ImageBody::count(const Index &low, const Index &high) const
+  std::uint32_t ImageBody::count(const Sums &sums, const Index &low, const Index &high) const
   {
     const std::size_t row = size_[0] + 1, slice = row * (size_[1] + 1);
     const auto in_slice = [&](const unsigned int k) {
-      const std::uint32_t *lower = &sums_[k * slice + low[1] * row],
-                          *upper = &sums_[k * slice + high[1] * row];
+      const std::uint32_t *lower = &sums[k * slice + low[1] * row],
+                          *upper = &sums[k * slice + high[1] * row];
       return upper[high[0]] - upper[low[0]] - lower[high[0]] + lower[low[0]];
     };
     return in_slice(high[2]) - in_slice(low[2]);
@@ -250,10 +260,15 @@ namespace softcell
       high[d]          = std::ceil(std::clamp(ranges[d].high, 0., end));
       n_voxels *= high[d] - low[d];
     }
-    const std::uint32_t n_filled = count(low, high);
-    return n_filled == 0                      ? Side::outside
-           : may_fill && n_filled == n_voxels ? Side::inside
-                                              : Side::cut;
+    const std::uint32_t n_filled = count(filled_, low, high);
+    if (n_filled == 0)
+      return Side::outside;
+    const bool has_one_label =
+      std::all_of(with_bit_.begin(), with_bit_.end(), [&](const Sums &sums) {
+        const std::uint32_t n = count(sums, low, high);
+        return n == 0 || n == n_filled;
+      });
+    return may_fill && n_filled == n_voxels && has_one_label ? Side::inside : Side::cut;
   }
 
   double ImageBody::filled_volume(const Box &box) const
@@ -284,14 +299,14 @@ namespace softcell
     for (const Piece &x : pieces[0])
       for (const Piece &y : pieces[1])
         for (const Piece &z : pieces[2])
-          n_voxels +=
-            x.part * y.part * z.part * count({{x.low, y.low, z.low}}, {{x.high, y.high, z.high}});
+          n_voxels += x.part * y.part * z.part *
+                      count(filled_, {{x.low, y.low, z.low}}, {{x.high, y.high, z.high}});
     return n_voxels * spacing_[0] * spacing_[1] * spacing_[2];
   }
 
   double ImageBody::volume() const
   {
-    return sums_.back() * spacing_[0] * spacing_[1] * spacing_[2];
+    return filled_.back() * spacing_[0] * spacing_[1] * spacing_[2];
   }
 
   unsigned int ImageBody::n_labels() const

@@ -10,8 +10,8 @@ namespace softcell
   void CutParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Cut levels", levels,
-                      "How often a cell that the body's boundary cuts is halved to find what is "
-                      "filled; 0 counts it as full (sparse grid).",
+                      "How often a cell that the body's boundary or an interface of materials cuts "
+                      "is halved to find what is filled; 0 counts it as full (sparse grid).",
                       dealii::Patterns::Integer(0, max_levels));
     prm.add_parameter("Alpha", alpha,
                       "Stiffness of the part of a cut cell outside the body, relative to the part "

@@ -5,19 +5,21 @@
 
 #include <softcell/geometry/image_body.h>
 
+#include <cmath>
+
 namespace softcell
 {
   namespace
   {
-    /// A unit cube of 16^3 voxels whose lowest quarter has the label 40 and the rest 255.
-    std::unique_ptr<Body> layered_cube()
+    /// A unit cube of 16^3 voxels whose lowest layers have the label 40 and the rest 255.
+    std::unique_ptr<Body> layered_cube(const unsigned int n_lower = 4)
     {
       LabelImage image;
       image.size    = {{16, 16, 16}};
       image.spacing = Direction({1. / 16, 1. / 16, 1. / 16});
       image.origin  = Point(1. / 32, 1. / 32, 1. / 32);
       image.values  = {40, 255};
-      image.voxels.assign(16 * 16 * 4, 0);
+      image.voxels.assign(16 * 16 * n_lower, 0);
       image.voxels.resize(16 * 16 * 16, 1);
       std::vector<std::string> remarks;
       return std::make_unique<ImageBody>(std::move(image), std::vector<unsigned int>{40, 255},
@@ -51,6 +53,27 @@ namespace softcell
                                  {"tetrahedra", 2},
                                  {"hexahedra", 1}})
       EXPECT_NEAR(tension(method), 200, 1e-8) << method.name;
+  }
+
+  /// The middle one of three cells holds the border at 7/16. Two Gauss points across a leaf see it
+  /// at most half of the leaf's edge, 2^-levels / 3, off; from four levels on leaves end at voxels.
+  TEST(Labels, finite_cell_refines_towards_their_border)
+  {
+    for (const unsigned int levels : {1u, 2u, 3u, 4u, 5u})
+    {
+      SCOPED_TRACE(levels);
+      Parameters p                     = body_of("image", {"finite cell", 1}, 3);
+      p.material.density               = 1;
+      p.label_materials["255"]         = p.material;
+      p.label_materials["255"].density = 3;
+      p.discretization.cut.levels      = levels;
+      p.loads.gravity                  = Direction({0, 0, -1});
+      p.regions                        = {{"base", "z < 1e-9"}};
+      p.load_entries                   = {{"base", "clamp"}};
+      const double weight              = -solve(p, layered_cube(7)).row.number("gravity_fz");
+      const double step                = std::pow(0.5, levels) / 3;
+      EXPECT_NEAR((3 - weight) / 2, 7. / 16, levels < 4 ? step / 2 : 1e-12);
+    }
   }
 
   /// The lower layer's volume, told by the weight of a mesh of the image itself. The facets between

@@ -11,8 +11,8 @@ namespace softcell
   /// How a box lies to the body.
   enum class Side
   {
-    inside, ///< every point of the box is in the body
-    cut,    ///< the box may hold points of both sides
+    inside, ///< every point of the box is in the body and has the same label
+    cut,    ///< the box may hold points of both sides or of two labels
     outside ///< no point of the box is in the body
   };
 
@@ -30,8 +30,8 @@ namespace softcell
 
     virtual bool contains(const Point &X) const = 0;
 
-    /// `inside` and `outside` are certain; `cut` may be said of a box that the boundary only
-    /// touches.
+    /// `inside` and `outside` are certain; `cut` may be said of a box that the boundary or an
+    /// interface of labels only touches.
     virtual Side classify(const Box &box) const = 0;
 
     /// Volume of what the body fills of the box. Units: m^3

@@ -10,7 +10,8 @@ namespace softcell
   /// The union of the voxels of some labels.
   ///
   /// Inside, classification and filled volume answer exactly for these voxels, boxes in constant
-  /// time from a summed-volume table, 4 bytes a voxel of the body's bounding box.
+  /// time from summed-volume tables of 4 bytes a voxel of the body's bounding box: one, and one
+  /// more each time that the number of labels doubles.
   ///
   /// Only surface() smooths: it is a level set of the voxels blurred by a Gaussian of
   /// sigma = 1.5 times the coarsest voxel spacing (or 1/150 of the bounding box's diagonal, if that
@@ -46,6 +47,8 @@ namespace softcell
 
   private:
     using Index = std::array<unsigned int, 3>;
+    /// (size + 1): how many of some voxels lie below, behind and left of a corner.
+    using Sums = std::vector<std::uint32_t>;
 
     /// A range of real numbers in units of voxels.
     struct Range
@@ -57,8 +60,11 @@ namespace softcell
     /// The box in units of voxels from the body's lower corner; nearly whole numbers are made
     /// whole.
     std::array<Range, 3> in_voxels(const Box &box) const;
-    /// Number of the body's voxels with indices in [low, high).
-    std::uint32_t count(const Index &low, const Index &high) const;
+    /// Sums of the voxels that `counts` is true of.
+    template <class Counts>
+    Sums sum_up(const Counts &counts) const;
+    /// How many of the summed voxels have indices in [low, high).
+    std::uint32_t count(const Sums &sums, const Index &low, const Index &high) const;
     /// The label of a voxel + 1; 0 outside.
     std::uint8_t at(long i, long j, long k) const;
 
@@ -67,7 +73,7 @@ namespace softcell
     Direction spacing_;
     std::vector<std::string> names_;   // of the labels
     std::vector<std::uint8_t> labels_; // one per voxel, x fastest: 0 outside, else label + 1
-    std::vector<std::uint32_t>
-      sums_; // (size + 1): the body's voxels below, behind and left of a corner
+    Sums filled_;                      // of the body's voxels
+    std::vector<Sums> with_bit_;       // of those with the first, second, ... bit of label() set
   };
 } // namespace softcell

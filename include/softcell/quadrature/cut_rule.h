@@ -31,7 +31,7 @@ namespace softcell
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// Quadrature in cells that the body's boundary cuts.
+  /// Quadrature in cells that the body's boundary cuts, or an interface of labels.
   ///
   /// A rule is given the cut cells one after the other and keeps of each what it needs, in as
   /// little memory as it can, to give the points again whenever a tangent is assembled.
