@@ -71,28 +71,27 @@ namespace softcell
   {
     double fraction = 0;
     std::vector<double> fraction_of(body_.n_labels(), 0.);
-    const bool one_label = fraction_of.size() == 1;
     visit_leaves(body_, part, parameters_.levels - 1,
                  [&](const Box &leaf, const Side side, const LeafCode) {
                    if (side == Side::outside)
                      return;
                    const double leaf_fraction = leaf.volume() / part.volume();
-                   if (side == Side::inside && one_label)
+                   if (side == Side::inside)
                    {
                      fraction += leaf_fraction;
+                     fraction_of[body_.label(leaf.center())] += leaf_fraction;
                      return;
                    }
                    for (unsigned int i = 0; i < gauss_.size(); ++i)
                    {
                      const Point X = leaf.unit_to_real(gauss_.point(i));
-                     if (side == Side::cut && !body_.contains(X))
+                     if (!body_.contains(X))
                        continue;
                      fraction += gauss_.weight(i) * leaf_fraction;
-                     if (!one_label)
-                       fraction_of[body_.label(X)] += gauss_.weight(i) * leaf_fraction;
+                     fraction_of[body_.label(X)] += gauss_.weight(i) * leaf_fraction;
                    }
                  });
-    if (fraction == 0 || one_label)
+    if (fraction == 0)
       return {fraction, static_cast<unsigned char>(body_.label(gauss_point))};
     return {fraction,
             static_cast<unsigned char>(std::max_element(fraction_of.begin(), fraction_of.end()) -

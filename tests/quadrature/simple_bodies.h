@@ -72,8 +72,11 @@ namespace softcell
     }
     Side classify(const Box &box) const override
     {
-      const double filled = filled_volume(box);
-      return filled <= 0 ? Side::outside : filled < box.volume() ? Side::cut : Side::inside;
+      const double filled       = filled_volume(box);
+      const bool has_two_labels = box.lower_bound(0) < split_ && split_ < box.upper_bound(0);
+      return filled <= 0                               ? Side::outside
+             : filled < box.volume() || has_two_labels ? Side::cut
+                                                       : Side::inside;
     }
     double filled_volume(const Box &box) const override
     {
