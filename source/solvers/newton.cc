@@ -16,7 +16,8 @@ namespace softcell
   namespace
   {
     // Newton gives up after this many steps in a row each of which the line search made shorter
-    // than `short_step`, or which leave the residual above `progress` times the smallest so far.
+    // than `short_step`, or which leave the residual above `progress` times the smallest so far;
+    // after one, where rounding hides what is left to gain.
     constexpr unsigned int max_poor_steps = 8;
     constexpr double short_step           = 1. / 8;
     constexpr double progress             = 0.9;
@@ -54,7 +55,7 @@ namespace softcell
 
       void look_what_is_missing();
       bool has_converged() const;
-      bool is_poor(const NewtonIteration &iteration);
+      bool is_poor(Step step, const NewtonIteration &iteration);
       bool evaluate_trial(double step);
       Step search_line(NewtonIteration &iteration);
 
@@ -65,6 +66,7 @@ namespace softcell
       Vector r_, missing_, du_, trial_u_, trial_r_;
       double scale_             = 0;     // of forces, at u
       bool entering_            = false; // part of the imposed values is still missing
+      bool stalled_             = false; // what the last step could gain is lost in rounding
       double smallest_residual_ = std::numeric_limits<double>::max();
     };
 
@@ -103,13 +105,15 @@ namespace softcell
     /// smaller, or the energy, whose slope along the step is du . r, goes down.
     Newton::Step Newton::search_line(NewtonIteration &iteration)
     {
+      stalled_ = false;
       if (!std::isfinite(dot(du_, du_)))
         return Step::rejected;
       const double residual = r_.l2_norm(), slope = du_ * r_;
       const double length = du_.l2_norm(), u_norm = u_.l2_norm();
 
-      // What the step could gain is lost in the rounding of the work done so far.
-      const bool stalled = std::abs(slope) <= 1e-15 * scale_ * u_norm;
+      // The energy that the step could gain is lost in the rounding of the work done so far. Being
+      // quadratic in the residual, it is so long before the residual is as small as it can get.
+      stalled_ = !entering_ && std::abs(slope) <= 1e-15 * scale_ * u_norm;
 
       for (unsigned int halving = 0; halving <= parameters_.max_halvings; ++halving)
       {
@@ -123,8 +127,8 @@ namespace softcell
         const bool small          = full && iteration.update <= parameters_.update_tolerance;
         const bool smaller_residual = trial_r_.l2_norm() <= (1 - 1e-4 * iteration.step) * residual;
         const bool lower_energy =
-          slope < 0 && trial_slope <= -0.8 * slope && trial_slope >= 2 * slope;
-        if (!entering_ && full && (small || stalled))
+          !stalled_ && slope < 0 && trial_slope <= -0.8 * slope && trial_slope >= 2 * slope;
+        if (!entering_ && full && small)
           return Step::last;
         // While imposed values enter, the residual may rise: the step is judged by the next one.
         if (entering_ || smaller_residual || lower_energy)
@@ -138,12 +142,12 @@ namespace softcell
       return !entering_ && r_.l2_norm() <= parameters_.residual_tolerance * scale_;
     }
 
-    /// Whether the step that led to u gained little.
-    bool Newton::is_poor(const NewtonIteration &iteration)
+    /// Whether the step that led to u, or was to lead on from it, gained little.
+    bool Newton::is_poor(const Step step, const NewtonIteration &iteration)
     {
       const double residual = r_.l2_norm();
-      const bool poor =
-        iteration.step < short_step || (!entering_ && residual > progress * smallest_residual_);
+      const bool poor       = step == Step::rejected || iteration.step < short_step ||
+                        (!entering_ && residual > progress * smallest_residual_);
       // A residual from before all imposed values were in is no measure.
       if (!entering_)
         smallest_residual_ = std::min(residual, smallest_residual_);
@@ -190,8 +194,9 @@ namespace softcell
         if (report)
           report(iteration);
 
-        result.converged = step == Step::last || (step == Step::accepted && has_converged());
-        poor_steps       = is_poor(iteration) ? poor_steps + 1 : 0;
+        poor_steps       = is_poor(step, iteration) ? poor_steps + 1 : 0;
+        result.converged = step == Step::last || (step == Step::accepted && has_converged()) ||
+                           (stalled_ && poor_steps > 0);
         if (result.converged)
           break;
         if (step == Step::rejected)
@@ -209,11 +214,14 @@ namespace softcell
   {
     prm.add_parameter("Residual tolerance", residual_tolerance,
                       "A step has converged when the residual is this small relative to the forces "
-                      "that act on the body, supports included. Units: 1",
+                      "that act on the body, supports included; or where it falls no further "
+                      "because rounding hides the energy that is left to gain, as it may on badly "
+                      "graded meshes. Units: 1",
                       dealii::Patterns::Double(0.));
     prm.add_parameter("Update tolerance", update_tolerance,
                       "A step has also converged when a full Newton step changes the displacement "
-                      "by no more than this, relatively. Units: 1",
+                      "by no more than this, relatively, whatever the residual; 0 asks for the "
+                      "residual alone. Units: 1",
                       dealii::Patterns::Double(0.));
     prm.add_parameter("Newton iterations", max_iterations,
                       "Iterations after which a load step has failed.",

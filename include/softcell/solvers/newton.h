@@ -71,7 +71,8 @@ namespace softcell
   /// Converged by either criterion of Brunet, algorithm 1, with nothing of the imposed values
   /// missing: the residual, here relative to force_scale(u) and not to its first value, which says
   /// nothing where imposed values are still to enter; or the update of a full step. Where rounding
-  /// hides what a step could gain it counts as converged too.
+  /// hides the energy that a step could gain, and the residual falls by less than a tenth or the
+  /// step had to be shortened much, it counts as converged too.
   ///
   /// The line search halves the whole step, its imposed part included, until nothing is inverted
   /// (InvertedPoint, or a residual that is not finite) and the residual or the energy goes down;
