@@ -3,8 +3,6 @@
 
 #include <softcell/base/exceptions.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -36,22 +34,5 @@ namespace softcell
     if (error)
       throw BadInput("The folder '" + folder + "' cannot be made (" + error.message() +
                      "); give another one by --output DIR.");
-  }
-
-  void on_root(MPI_Comm communicator, const std::function<void()> &write)
-  {
-    std::string failure;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-      {
-        write();
-      }
-      catch (const BadInput &error)
-      {
-        failure = error.what();
-      }
-    failure = dealii::Utilities::MPI::broadcast(communicator, failure);
-    if (!failure.empty())
-      throw BadInput(failure);
   }
 } // namespace softcell

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <softcell/base/parameters.h>
 
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 
 #include <deal.II/base/mpi.h>
@@ -247,20 +248,9 @@ namespace softcell
                                MPI_Comm communicator)
       : file_(file)
   {
-    std::pair<std::string, std::string> content; // text, complaint
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-      {
-        content.first = read_file(file);
-      }
-      catch (const BadInput &complaint)
-      {
-        content.second = complaint.what();
-      }
-    content = dealii::Utilities::MPI::broadcast(communicator, content);
-    if (!content.second.empty())
-      throw BadInput(content.second);
-    read_text(content.first);
+    std::string text;
+    on_root(communicator, [&] { text = read_file(file); });
+    read_text(dealii::Utilities::MPI::broadcast(communicator, text));
     for (const std::string &override_text : overrides)
       read_override(override_text);
   }

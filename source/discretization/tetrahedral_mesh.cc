@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tetrahedral meshes: of any body by CGAL, from a Gmsh file, and the structured one of a box.
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/sliver_removal.h>
 #include <softcell/discretization/tetrahedral_mesh.h>
@@ -89,20 +90,9 @@ namespace softcell
     /// Rank 0 makes the mesh; all get it, or all throw what went wrong there.
     Mesh made_on_rank_0(MPI_Comm communicator, const std::function<Mesh()> &make)
     {
-      std::pair<Mesh, std::string> result;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-        try
-        {
-          result.first = make();
-        }
-        catch (const BadInput &error)
-        {
-          result.second = error.what();
-        }
-      result = dealii::Utilities::MPI::broadcast(communicator, result);
-      if (!result.second.empty())
-        throw BadInput(result.second);
-      return result.first;
+      Mesh mesh;
+      on_root(communicator, [&] { mesh = make(); });
+      return dealii::Utilities::MPI::broadcast(communicator, mesh);
     }
 
     template <class Domain>

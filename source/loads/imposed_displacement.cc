@@ -3,6 +3,7 @@
 
 #include <softcell/loads/imposed_displacement.h>
 
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 
 #include <deal.II/base/mpi.h>
@@ -67,10 +68,7 @@ namespace softcell
       if (owner_[i] != nobody)
         unknowns_.push_back(i);
     }
-    for (const std::string &message :
-         dealii::Utilities::MPI::all_gather(discretization_.communicator(), conflict.str()))
-      if (!message.empty())
-        throw BadInput(message);
+    throw_on_all(discretization_.communicator(), conflict.str());
   }
 
   void ImposedDisplacement::missing(const Vector &u, const double t, Vector &missing) const

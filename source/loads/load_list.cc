@@ -3,6 +3,7 @@
 
 #include <softcell/loads/load_list.h>
 
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/base/parameters.h>
 #include <softcell/loads/dead_loads.h>
@@ -362,7 +363,7 @@ namespace softcell
           message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
                   << " at (" << X << "), t = 1; mend the expression or the region.";
         }
-        throw_on_all(message.str());
+        throw_on_all(discretization_.communicator(), message.str());
       }
 
       /// Points that an earlier displacement holds too must be held in the same place by both.
@@ -395,16 +396,7 @@ namespace softcell
                         << "); leave that component `free` in one of them or let the regions not "
                            "meet.";
           }
-        throw_on_all(message.str());
-      }
-
-      /// Throws what any rank has to complain of.
-      void throw_on_all(const std::string &complaint) const
-      {
-        for (const std::string &any :
-             dealii::Utilities::MPI::all_gather(discretization_.communicator(), complaint))
-          if (!any.empty())
-            throw BadInput(any);
+        throw_on_all(discretization_.communicator(), message.str());
       }
 
       /// Notes that the points cannot move freely where the stiffness is not 0.

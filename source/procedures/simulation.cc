@@ -3,6 +3,7 @@
 
 #include <softcell/procedures/simulation.h>
 
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 #include <softcell/discretization/evaluation.h>

@@ -4,6 +4,7 @@
 #include <softcell/base/exceptions.h>
 #include <softcell/solvers/approximate_inverse.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 
 #include <petscksp.h>
@@ -53,8 +54,9 @@ namespace softcell
         if (approximation_ == Approximation::incomplete_cholesky)
           set_up_incomplete_cholesky();
         PCFailedReason failed;
-        check_petsc(PCGetFailedReason(inverse_, &failed));
-        if (failed != PC_NOERROR)
+        check_petsc(PCGetFailedReason(inverse_, &failed)); // perhaps of this rank's block alone
+        if (dealii::Utilities::MPI::max(int(failed != PC_NOERROR),
+                                        matrix.partitioner()->get_mpi_communicator()) != 0)
           throw NotConverged("PETSc cannot factorise the matrix: it is singular or memory ran out");
       }
 

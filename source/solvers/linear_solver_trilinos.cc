@@ -22,10 +22,13 @@ namespace softcell
 {
   namespace
   {
-    void check_trilinos(const int error, const std::string &what)
+    /// Throws if any rank has an error, which may be that of its own factors. Collective.
+    void check_trilinos(const int error, const std::string &what, const Epetra_Comm &communicator)
     {
-      if (error < 0)
-        throw NotConverged(what + " of Trilinos failed with error " + std::to_string(error));
+      int mine = error, lowest = 0;
+      communicator.MinAll(&mine, &lowest, 1);
+      if (lowest < 0)
+        throw NotConverged(what + " of Trilinos failed with error " + std::to_string(lowest));
     }
 
     /// An Epetra copy of a BlockMatrix. Epetra numbers this rank's columns first and the others
@@ -138,15 +141,16 @@ namespace softcell
         if (!inverse_)
         {
           inverse_.reset(Ifpack().Create("IC", &**matrix_, 0));
-          check_trilinos(inverse_->Initialize(), "Incomplete Cholesky");
+          check_trilinos(inverse_->Initialize(), "Incomplete Cholesky", (**matrix_).Comm());
         }
-        check_trilinos(inverse_->Compute(), "Incomplete Cholesky");
+        check_trilinos(inverse_->Compute(), "Incomplete Cholesky", (**matrix_).Comm());
       }
 
       void vmult(Vector &y, const Vector &x) const override
       {
         Epetra_Vector target = matrix_->view(y);
-        check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Incomplete Cholesky");
+        check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Incomplete Cholesky",
+                       (**matrix_).Comm());
       }
 
     private:
@@ -186,7 +190,8 @@ namespace softcell
       void vmult(Vector &y, const Vector &x) const override
       {
         Epetra_Vector target = matrix_->view(y);
-        check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Multigrid");
+        check_trilinos(inverse_->ApplyInverse(matrix_->view(x), target), "Multigrid",
+                       (**matrix_).Comm());
       }
 
     private:

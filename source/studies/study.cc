@@ -3,6 +3,7 @@
 
 #include <softcell/studies/study.h>
 
+#include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 #include <softcell/output/results.h>
@@ -200,7 +201,8 @@ namespace softcell
       record_.parameters = parameters_.entries;
 
       console_.say("Body: " + parameters_.geometry.type + ' ' + parameters_.geometry.file);
-      body_ = make_body(parameters_.geometry, record_.remarks);
+      // A file may be missing on some ranks' machines only.
+      on_all(MPI_COMM_WORLD, [&] { body_ = make_body(parameters_.geometry, record_.remarks); });
       for (const std::string &remark : record_.remarks)
         console_.say("  " + remark);
     }

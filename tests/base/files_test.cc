@@ -38,12 +38,6 @@ TEST(Files, NamesWhatCannotBeWritten)
   }
 }
 
-TEST(Files, AllRanksHearThatTheRootFailed)
-{
-  EXPECT_THROW(on_root(MPI_COMM_WORLD, [] { throw BadInput("no room"); }), BadInput);
-  EXPECT_NO_THROW(on_root(MPI_COMM_WORLD, [] {}));
-}
-
 TEST(Files, NamesAFolderThatCannotBeMade)
 {
   EXPECT_THROW(make_folder("/dev/null/folder"), BadInput);

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Writing text files so that a reader never sees half of one, and so that all ranks hear of a
-// failure.
+// Writing text files so that a reader never sees half of one.
 #pragma once
 
-#include <mpi.h>
-
-#include <functional>
 #include <string>
 
 namespace softcell
@@ -17,7 +13,4 @@ namespace softcell
   /// Makes a folder and those above it, unless they are there.
   /// @throws BadInput if it cannot be made.
   void make_folder(const std::string &folder);
-
-  /// Runs `write` on rank 0. If it throws BadInput there, all ranks throw that. Collective.
-  void on_root(MPI_Comm communicator, const std::function<void()> &write);
 } // namespace softcell
