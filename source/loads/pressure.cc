@@ -65,7 +65,7 @@ namespace softcell
   }
 
   // With u_j along axis b growing, d(a_1 x a_2) = e_b x c_j, c_j = (t_1 . G_j) a_2 - (t_2 . G_j)
-  // a_1, where G_j = dN_j/dX. So K_iajb = p w N_i (e_b x c_j)_a, skew in a and b.
+  // a_1, where G_j = dN_j/dX. So K_iajb = p w N_i (e_b x c_j)_a.
   void Pressure::add_tangent(const Vector &u, const double t, BlockMatrix &K) const
   {
     std::vector<double> values;
@@ -81,8 +81,7 @@ namespace softcell
         const auto [a_1, a_2] = deformed_tangents(patch, q, u);
         const double *const N = patch.shapes.value(q);
         const double *const G = patch.shapes.gradient(q);
-        const double half_p_weight =
-          0.5 * patch.weights[q] * pressure_.at_load_factor(patch.points[q], t)[0];
+        const double p_weight = patch.weights[q] * pressure_.at_load_factor(patch.points[q], t)[0];
         for (unsigned int j = 0; j < n; ++j)
         {
           const Direction G_j({G[j], G[n + j], G[2 * n + j]});
@@ -96,9 +95,8 @@ namespace softcell
             const unsigned int k = 3 - a - b;
             const double sign    = (b + 1) % 3 == k ? 1 : -1; // of (e_b x e_k)_a
             for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int j = 0; j < n; ++j) // the symmetric part
-                values[((a * n + i) * 3 + b) * n + j] +=
-                  sign * half_p_weight * (N[i] * c[j][k] - N[j] * c[i][k]);
+              for (unsigned int j = 0; j < n; ++j)
+                values[((a * n + i) * 3 + b) * n + j] += sign * p_weight * N[i] * c[j][k];
           }
       }
       K.add(patch.nodes, values.data());

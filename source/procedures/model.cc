@@ -3,6 +3,8 @@
 
 #include <softcell/procedures/model.h>
 
+#include <algorithm>
+
 namespace softcell
 {
   namespace
@@ -14,6 +16,12 @@ namespace softcell
       for (const auto &force : loads.forces)
         force->add_couplings(lists);
       return lists;
+    }
+
+    bool is_symmetric(const Loads &loads)
+    {
+      return std::all_of(loads.forces.begin(), loads.forces.end(),
+                         [](const auto &force) { return force->has_symmetric_tangent(); });
     }
 
     /// Mean magnitude of the diagonal of the owned rows of all ranks.
@@ -45,7 +53,7 @@ namespace softcell
         elasticity_(discretization, std::move(materials)),
         loads_(loads),
         tangent_(discretization.partitioner(), couplings(elasticity_, loads)),
-        linear_solver_(make_linear_solver(linear_solver)),
+        linear_solver_(make_linear_solver(linear_solver, is_symmetric(loads))),
         timers_(timers),
         internal_(discretization.make_vector()),
         external_(discretization.make_vector()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Conjugate gradients and what does not depend on the backend.
+// Conjugate gradients, GMRES and what does not depend on the backend.
 
 #include <softcell/solvers/linear_solver.h>
 
@@ -9,6 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
+#include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,12 @@ namespace softcell
     class DirectSolver : public LinearSolver
     {
     public:
+      explicit DirectSolver(const bool is_symmetric)
+          : factors_(make_petsc_inverse(is_symmetric ? Approximation::symmetric_factors
+                                                     : Approximation::factors))
+      {
+      }
+
       void set_matrix(const BlockMatrix &matrix,
                       const std::vector<Point> &positions,
                       const std::vector<unsigned int> &constrained) override
@@ -97,18 +104,18 @@ namespace softcell
       }
 
     private:
-      static constexpr double acceptable_residual  = 1e-5;
-      std::unique_ptr<ApproximateInverse> factors_ = make_petsc_inverse(Approximation::factors);
-      const BlockMatrix *matrix_                   = nullptr;
+      static constexpr double acceptable_residual = 1e-5;
+      std::unique_ptr<ApproximateInverse> factors_;
+      const BlockMatrix *matrix_ = nullptr;
       mutable std::vector<double> history_;
     };
 
-    class ConjugateGradients : public LinearSolver
+    class IterativeSolver : public LinearSolver
     {
     public:
       /// @param inverse none if null.
-      ConjugateGradients(const LinearSolverParameters &parameters,
-                         std::unique_ptr<ApproximateInverse> inverse)
+      IterativeSolver(const LinearSolverParameters &parameters,
+                      std::unique_ptr<ApproximateInverse> inverse)
           : parameters_(parameters), inverse_(std::move(inverse))
       {
       }
@@ -122,14 +129,12 @@ namespace softcell
           inverse_->set_matrix(matrix, positions, constrained);
       }
 
-      unsigned int solve(Vector &x, const Vector &b) const override;
-
       const std::vector<double> &history() const override
       {
         return history_;
       }
 
-    private:
+    protected:
       double finite_dot(const Vector &x, const Vector &y) const
       {
         const double product = dot(x, y);
@@ -140,14 +145,38 @@ namespace softcell
 
       [[noreturn]] void fail(const std::string &what) const
       {
-        throw NotConverged("conjugate gradients with the preconditioner " +
-                           parameters_.preconditioner + ' ' + what);
+        throw NotConverged(name() + " with the preconditioner " + parameters_.preconditioner + ' ' +
+                           what);
       }
+
+      [[noreturn]] void fail_at_the_limit() const
+      {
+        fail("reached a relative residual of " + in_short(history_.back()) + " instead of " +
+             in_short(parameters_.tolerance) + " in " + std::to_string(parameters_.max_iterations) +
+             " iterations");
+      }
+
+      /// Within a message.
+      virtual std::string name() const = 0;
 
       const LinearSolverParameters parameters_;
       std::unique_ptr<ApproximateInverse> inverse_;
       const BlockMatrix *matrix_ = nullptr;
       mutable std::vector<double> history_;
+    };
+
+    class ConjugateGradients : public IterativeSolver
+    {
+    public:
+      using IterativeSolver::IterativeSolver;
+
+      unsigned int solve(Vector &x, const Vector &b) const override;
+
+    private:
+      std::string name() const override
+      {
+        return "conjugate gradients";
+      }
     };
 
     unsigned int ConjugateGradients::solve(Vector &x, const Vector &b) const
@@ -187,20 +216,81 @@ namespace softcell
         if (history_.back() <= parameters_.tolerance)
           return iteration;
       }
-      fail("reached a relative residual of " + in_short(history_.back()) + " instead of " +
-           in_short(parameters_.tolerance) + " in " + std::to_string(parameters_.max_iterations) +
-           " iterations");
+      fail_at_the_limit();
+    }
+
+    /// Preconditioned from the right, so that it looks at the true residual.
+    class GMRES : public IterativeSolver
+    {
+    public:
+      using IterativeSolver::IterativeSolver;
+
+      unsigned int solve(Vector &x, const Vector &b) const override;
+
+    private:
+      std::string name() const override
+      {
+        return "GMRES";
+      }
+    };
+
+    unsigned int GMRES::solve(Vector &x, const Vector &b) const
+    {
+      history_.clear();
+      x.zero_out_ghost_values();
+      x                   = 0.;
+      const double b_norm = std::sqrt(finite_dot(b, b));
+      if (b_norm == 0)
+        return 0;
+
+      struct Product // deal.II never sees a number that is not finite
+      {
+        std::function<void(Vector &, const Vector &)> vmult;
+      };
+      const Product matrix{[this](Vector &y, const Vector &v) {
+        matrix_->vmult(y, v);
+        finite_dot(y, y);
+      }};
+      const Product inverse{[this](Vector &y, const Vector &v) {
+        if (inverse_)
+          inverse_->vmult(y, v);
+        else
+          y = v;
+        finite_dot(y, y);
+      }};
+
+      constexpr unsigned int restart = 100;
+      using Solver                   = dealii::SolverGMRES<Vector>;
+      dealii::SolverControl control(parameters_.max_iterations, parameters_.tolerance * b_norm,
+                                    false, false);
+      dealii::PrimitiveVectorMemory<Vector> memory;
+      Solver solver(control, memory, Solver::AdditionalData(restart + 2, true));
+      solver.connect([&](const unsigned int iteration, const double residual, const Vector &) {
+        if (iteration > history_.size()) // not the start, nor once more at a restart
+          history_.push_back(residual / b_norm);
+        return dealii::SolverControl::success;
+      });
+      try
+      {
+        solver.solve(matrix, x, b, inverse);
+      }
+      catch (const dealii::SolverControl::NoConvergence &)
+      {
+        fail_at_the_limit();
+      }
+      return control.last_step();
     }
   } // namespace
 
   void LinearSolverParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Linear solver", solver,
-                      "Conjugate gradients, or a direct factorisation by MUMPS, which needs much "
-                      "memory but minds neither bad cuts nor slender bodies.",
+                      "Conjugate gradients (GMRES if a pressure acts, whose tangent is not "
+                      "symmetric), or a direct factorisation by MUMPS, which needs much memory but "
+                      "minds neither bad cuts nor slender bodies.",
                       dealii::Patterns::Selection("CG|direct"));
     prm.add_parameter("Preconditioner", preconditioner,
-                      "Of the conjugate gradients. AMG keeps the six rigid-body motions; its "
+                      "Of the iterative solver. AMG keeps the six rigid-body motions; its "
                       "iterations hardly grow with the number of unknowns. Incomplete Cholesky is "
                       "that of each rank's own part.",
                       dealii::Patterns::Selection("none|Jacobi|incomplete Cholesky|AMG"));
@@ -212,7 +302,7 @@ namespace softcell
                       "Residual of the linear system relative to its right-hand side. Units: 1",
                       dealii::Patterns::Double(0., 1.));
     prm.add_parameter("Linear iterations", max_iterations,
-                      "Iterations of the conjugate gradients after which a solve has failed.",
+                      "Iterations of the iterative solver after which a solve has failed.",
                       dealii::Patterns::Integer(1));
   }
 
@@ -253,10 +343,11 @@ namespace softcell
     return modes;
   }
 
-  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters)
+  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters,
+                                                   const bool is_symmetric)
   {
     if (parameters.solver == "direct")
-      return std::make_unique<DirectSolver>();
+      return std::make_unique<DirectSolver>(is_symmetric);
 
     std::unique_ptr<ApproximateInverse> inverse;
     if (parameters.preconditioner == "Jacobi")
@@ -269,6 +360,8 @@ namespace softcell
       inverse                  = parameters.backend == "PETSc" ? make_petsc_inverse(approximation)
                                                                : make_trilinos_inverse(approximation);
     }
-    return std::make_unique<ConjugateGradients>(parameters, std::move(inverse));
+    if (is_symmetric)
+      return std::make_unique<ConjugateGradients>(parameters, std::move(inverse));
+    return std::make_unique<GMRES>(parameters, std::move(inverse));
   }
 } // namespace softcell

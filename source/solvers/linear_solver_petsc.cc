@@ -100,8 +100,11 @@ namespace softcell
       check_petsc(MatSetBlockSize(matrix_, 3));
       check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_start.data(), columns.data(),
                                                matrix.values().data()));
-      check_petsc(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
-      check_petsc(MatSetOption(matrix_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+      if (approximation_ != Approximation::factors) // near enough for a preconditioner
+      {
+        check_petsc(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
+        check_petsc(MatSetOption(matrix_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+      }
       for (Vec *const vector : {&x_, &y_})
         check_petsc(
           VecCreateMPIWithArray(communicator, 3, n_rows, unknowns.size(), nullptr, vector));
@@ -121,8 +124,10 @@ namespace softcell
         case Approximation::multigrid:
           check_petsc(PCSetType(inverse_, PCGAMG));
           break;
+        case Approximation::symmetric_factors:
         case Approximation::factors:
-          check_petsc(PCSetType(inverse_, PCCHOLESKY));
+          check_petsc(
+            PCSetType(inverse_, approximation_ == Approximation::factors ? PCLU : PCCHOLESKY));
           check_petsc(PCFactorSetMatSolverType(inverse_, MATSOLVERMUMPS));
           check_petsc(PCFactorSetUpMatSolverType(inverse_));
           Mat factors;

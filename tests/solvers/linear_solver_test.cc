@@ -68,7 +68,8 @@ namespace
       assemble(shift);
     }
 
-    void assemble(const double shift)
+    /// @param twist couples x with y in every cell's matrix, with opposite signs.
+    void assemble(const double shift, const double twist = 0)
     {
       matrix->set_zero();
       for (const std::vector<unsigned int> &cell : cells)
@@ -84,6 +85,11 @@ namespace
                 values[(a * 8 + i) * 24 + b * 8 + j] -= k;
                 values[(a * 8 + i) * 24 + b * 8 + i] += k - (i == j && a == b ? shift : 0.);
               }
+        for (unsigned int i = 0; i < 8; ++i)
+        {
+          values[i * 24 + 8 + i] += twist;
+          values[(8 + i) * 24 + i] -= twist;
+        }
         matrix->add(dealii::make_array_view(cell), values.data());
       }
       matrix->compress();
@@ -131,9 +137,14 @@ namespace
       : public testing::TestWithParam<std::tuple<std::string, std::string, std::string>>
   {
   protected:
-    std::unique_ptr<LinearSolver> solver =
-      std::apply([](auto... names) { return make_linear_solver(parameters(names...)); },
-                 GetParam());
+    static std::unique_ptr<LinearSolver> make_solver(const bool is_symmetric)
+    {
+      return std::apply(
+        [&](auto... names) { return make_linear_solver(parameters(names...), is_symmetric); },
+        GetParam());
+    }
+
+    std::unique_ptr<LinearSolver> solver = make_solver(true);
   };
 
   TEST_P(LinearSolverOn, solves_the_lattice_again_and_again)
@@ -148,15 +159,31 @@ namespace
     lattice.expect_solution(*solver, 1e-10);
   }
 
+  TEST_P(LinearSolverOn, solves_an_unsymmetric_lattice)
+  {
+    Lattice lattice(5);
+    const auto general = make_solver(false);
+    for (const double twist : {0.1, -0.2})
+    {
+      lattice.assemble(0, twist);
+      general->set_matrix(*lattice.matrix, lattice.positions, lattice.held);
+      lattice.expect_solution(*general, 1e-10);
+    }
+  }
+
   TEST_P(LinearSolverOn, never_returns_what_is_not_finite)
   {
     const Lattice lattice(3);
-    solver->set_matrix(*lattice.matrix, lattice.positions, lattice.held);
     Vector b(lattice.unknowns), x(lattice.unknowns);
     b = 1.;
     if (b.locally_owned_size() > 0)
       b.local_element(0) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(solver->solve(x, b), NotConverged);
+    for (const bool is_symmetric : {true, false})
+    {
+      solver = make_solver(is_symmetric);
+      solver->set_matrix(*lattice.matrix, lattice.positions, lattice.held);
+      EXPECT_THROW(solver->solve(x, b), NotConverged);
+    }
   }
 
   TEST_P(LinearSolverOn, goes_down_the_energy_of_an_indefinite_matrix)
@@ -224,21 +251,26 @@ namespace
     const Lattice lattice(5);
     auto few           = parameters("CG", "Jacobi", "Trilinos");
     few.max_iterations = 3;
-    const auto solver  = make_linear_solver(few);
-    solver->set_matrix(*lattice.matrix, lattice.positions, lattice.held);
-    Vector b(lattice.unknowns), x(lattice.unknowns);
-    b = 1.;
-    try
+    for (const bool is_symmetric : {true, false})
     {
-      solver->solve(x, b);
-      FAIL();
+      const auto solver = make_linear_solver(few, is_symmetric);
+      solver->set_matrix(*lattice.matrix, lattice.positions, lattice.held);
+      Vector b(lattice.unknowns), x(lattice.unknowns);
+      b = 1.;
+      try
+      {
+        solver->solve(x, b);
+        FAIL();
+      }
+      catch (const NotConverged &failure)
+      {
+        const std::string what = failure.what();
+        EXPECT_EQ(what.find(is_symmetric ? "conjugate gradients" : "GMRES"), 0u);
+        EXPECT_NE(what.find("Jacobi"), std::string::npos);
+        EXPECT_NE(what.find("in 3 iterations"), std::string::npos);
+      }
+      EXPECT_EQ(solver->history().size(), 3u);
     }
-    catch (const NotConverged &failure)
-    {
-      EXPECT_NE(std::string(failure.what()).find("Jacobi"), std::string::npos);
-      EXPECT_NE(std::string(failure.what()).find("in 3 iterations"), std::string::npos);
-    }
-    EXPECT_EQ(solver->history().size(), 3u);
   }
 
   TEST(LinearSolver, stops_at_once_at_negative_curvature)

@@ -28,8 +28,8 @@ namespace softcell
 
     void set_zero();
 
-    /// Adds a dense symmetric patch matrix. `values` is (3, n, 3, n): row component, row node,
-    /// column component, column node, which is how the patch kernels vectorise.
+    /// Adds a dense patch matrix. `values` is (3, n, 3, n): row component, row node, column
+    /// component, column node, which is how the patch kernels vectorise.
     void add(View<const unsigned int> nodes, const double *values);
 
     /// Sends contributions to rows of other ranks and adds what they sent. Collective.

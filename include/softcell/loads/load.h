@@ -28,6 +28,12 @@ namespace softcell
     /// Adds d residual / du to K, nothing for a dead load.
     virtual void add_tangent(const Vector & /*u*/, double /*t*/, BlockMatrix & /*K*/) const {}
 
+    /// Whether add_tangent() adds symmetric matrices, as every force with an energy does.
+    virtual bool has_symmetric_tangent() const
+    {
+      return true;
+    }
+
     /// Lists of nodes that the tangent couples beyond those of single patches.
     virtual void add_couplings(std::vector<std::vector<unsigned int>> & /*couplings*/) const {}
 

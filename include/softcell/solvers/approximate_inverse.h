@@ -14,11 +14,12 @@ namespace softcell
   {
     incomplete_cholesky, // of this rank's diagonal block
     multigrid,           // algebraic, smoothed aggregation that keeps the rigid-body modes
-    factors              // LDL^T by MUMPS: not an approximation
+    symmetric_factors,   // LDL^T by MUMPS: not an approximation
+    factors              // LU by MUMPS
   };
 
-  /// A symmetric operator that is near to A^-1. Its symbolic work is kept between matrices of the
-  /// same structure.
+  /// An operator that is near to A^-1, and symmetric where A is. Incomplete Cholesky takes one
+  /// triangle of A for both. Its symbolic work is kept between matrices of the same structure.
   class ApproximateInverse
   {
   public:

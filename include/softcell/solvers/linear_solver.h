@@ -27,9 +27,9 @@ namespace softcell
   /// A linear solver that keeps its symbolic work (sparsity, graph) between matrices of the same
   /// structure.
   ///
-  /// The conjugate gradients and the product with the matrix are our own, the same for both
-  /// backends. These supply incomplete factors and multigrid; MUMPS comes through PETSc with
-  /// either.
+  /// The conjugate gradients and the product with the matrix are our own, the GMRES for
+  /// unsymmetric matrices is that of deal.II: the same for both backends. These supply incomplete
+  /// factors and multigrid; MUMPS comes through PETSc with either.
   class LinearSolver
   {
   public:
@@ -38,7 +38,7 @@ namespace softcell
     /// Takes the values of the matrix and builds the preconditioner or the factors. The structure
     /// must be that of the first call. The matrix is looked at by solve(): keep it, unchanged,
     /// until then.
-    /// @param matrix symmetric.
+    /// @param matrix symmetric, if the solver was made for that.
     /// @param positions reference positions of the owned nodes (and perhaps of more), for the six
     /// rigid-body modes
     ///                  that AMG keeps.
@@ -59,5 +59,8 @@ namespace softcell
     virtual const std::vector<double> &history() const = 0;
   };
 
-  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters);
+  /// @param is_symmetric false for matrices that need not be: LU takes the place of LDL^T, and
+  /// GMRES that of the conjugate gradients.
+  std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverParameters &parameters,
+                                                   bool is_symmetric = true);
 } // namespace softcell
