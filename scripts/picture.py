@@ -6,7 +6,9 @@ usage: picture.py SURFACE.vtp...     writes SURFACE.png beside each surface; nee
 
 The surface stands at its deformed place and has the point data `displacement`, all in metres.
 """
+import csv
 import os
+import pathlib
 import sys
 
 import vtk
@@ -184,6 +186,20 @@ def colour_bar(table, name):
     return bar
 
 
+def load_reached(file):
+    """What results.csv says of the surface's case where it did not converge: the part of the load; else None."""
+    folder = pathlib.Path(file).resolve().parent
+    for table in (folder / "results.csv", folder.parent / "results.csv"):
+        if table.exists():
+            with open(table, newline="") as stream:
+                rows = list(csv.DictReader(stream))
+            for row in rows:
+                if (row["case"] == folder.name or len(rows) == 1) and row["converged"] == "false":
+                    return float(row["load_factor"])
+            return None
+    return None
+
+
 def draw(file):
     surface = read(file)
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
@@ -193,6 +209,8 @@ def draw(file):
     magnitude *= factor
     table = colours(top_of_scale(max(magnitude.max(), 1e-6)))
 
+    reached = load_reached(file)
+    title = "deformed" if reached is None else f"not converged: at {reached:.3g} of the load"
     rest = moved(surface, points - displacement, magnitude)
     deformed = moved(surface, points, magnitude)
     window = vtk.vtkRenderWindow()
@@ -204,7 +222,7 @@ def draw(file):
     # The shadow lies a layer deeper, so that it never covers the body.
     for layer, left, actors in ((0, 0.5, [outline(rest)]),
                                 (0, 0.0, [body(rest), text("at rest", 34, 0.5, 0.93)]),
-                                (1, 0.5, [body(deformed, table), text("deformed", 34, 0.5, 0.93)])):
+                                (1, 0.5, [body(deformed, table), text(title, 34, 0.5, 0.93)])):
         renderer = vtk.vtkRenderer()
         renderer.SetLayer(layer)
         renderer.SetViewport(left, 0.2, left + 0.5, 1)

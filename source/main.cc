@@ -32,6 +32,7 @@ namespace
         dealii::ParameterHandler prm;
         softcell::Parameters().add_parameters(prm);
         softcell::print_parameters(prm, std::cout);
+        std::cout << '\n' << softcell::free_sections;
       }
       return 0;
     }

@@ -45,9 +45,10 @@ namespace softcell
                       "Cells of the background grid across the body's bounding box: one number for "
                       "the shortest side, with cubic cells, or three along x, y and z.",
                       List(Integer(1), 1, 3));
-    prm.add_parameter(
-      "Cell size", cell_size,
-      "Edge length of cubic cells; if positive, it takes the place of Cells. Units: m", Double(0));
+    prm.add_parameter("Cell size", cell_size,
+                      "Edge length of the background grid's cells, then cubic; if positive, it "
+                      "takes the place of Cells. Units: m",
+                      Double(0));
     prm.add_parameter(
       "Grid scale", scale,
       "Size of the grid's box relative to the body's bounding box, about its centre; "

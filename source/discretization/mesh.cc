@@ -28,16 +28,18 @@ namespace softcell
     }
 
     /// Says so if the mesh does not fill the body.
-    void check_volume(const Mesh &mesh, const Body &body, std::vector<std::string> &remarks)
+    void check_volume(const Mesh &mesh,
+                      const Body &body,
+                      const std::string &advice,
+                      std::vector<std::string> &remarks)
     {
       const double found = volume(mesh), expected = body.volume();
       if (std::abs(found - expected) < 0.05 * expected)
         return;
       std::ostringstream text;
       text.precision(4);
-      text << "The mesh of " << mesh.n_cells() << " tetrahedra has a volume of " << found
-           << " m^3, the body of " << expected
-           << " m^3; a smaller Discretization/Mesh size brings them together.";
+      text << "The mesh of " << mesh.n_cells() << " cells has a volume of " << found
+           << " m^3, the body of " << expected << " m^3; " << advice << '.';
       remarks.push_back(text.str());
     }
   } // namespace
@@ -85,8 +87,7 @@ namespace softcell
         throw BadInput("Discretization/Mesh file = " + parameters.file + " holds " +
                        (mesh.corners_per_cell == 4 ? "tetrahedra" : "hexahedra") +
                        "; set Discretization/Method accordingly.");
-      if (shape == CellShape::tetrahedra)
-        check_volume(mesh, body, remarks);
+      check_volume(mesh, body, "section Geometry has to describe what the mesh fills", remarks);
       return mesh;
     }
     if (shape == CellShape::hexahedra)
@@ -99,7 +100,7 @@ namespace softcell
       size =
         std::min({box.side_length(0) / n[0], box.side_length(1) / n[1], box.side_length(2) / n[2]});
     Mesh mesh = tetrahedral_mesh(communicator, body, size);
-    check_volume(mesh, body, remarks);
+    check_volume(mesh, body, "a smaller Discretization/Mesh size brings them together", remarks);
     return mesh;
   }
 } // namespace softcell

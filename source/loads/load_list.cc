@@ -133,7 +133,7 @@ namespace softcell
                       "(surface in a cell) / (filled volume of the cell), at degree 1, but at most "
                       "1000 (lambda + 2 mu) / (cell size). Small strains need more than 1; where a "
                       "clamp's edge compresses the material to half, 2 is too little.",
-                      Patterns::Double(0.));
+                      Patterns::Double(1.));
     prm.add_parameter("Surface integration", surface_integration,
                       "exact: on the pieces of surface in each cell; nodal: at the nodes of the "
                       "body's surface mesh, as Brunet (eq. 4.14 to 4.21).",

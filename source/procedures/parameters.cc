@@ -10,6 +10,28 @@
 
 namespace softcell
 {
+  const char *const free_sections = R"(# In these sections you name the entries; NAME is yours.
+#
+# subsection Regions   # parts of the body's surface
+#   set NAME = an expression of x, y, z (m) and of the outward normal nx, ny, nz that is true there,
+#              as z < 0.05 && nz < -0.3; or `patch K` of a surface file
+# end
+# subsection Loads     # NAME is that of a region; several loads of it are separated by ;
+#   set NAME = clamp
+#   set NAME = displacement 0, free, 0.01   (m; free leaves a component to itself)
+#   set NAME = traction 0, -30, 0           (Pa; keeps its direction)
+#   set NAME = pressure 1733                (Pa; inward, follows the surface)
+#   set NAME = springs 1e6                  (Pa/m; towards the place at rest)
+#              Values are expressions of x, y, z and of the load factor t, which goes from 0 to 1;
+#              of those without t, t times the value acts, but springs are there from the start.
+# end
+# subsection Probes    # points of the body at rest whose displacement is reported
+#   set NAME = 0, 0, 0.6                    (m)
+# end
+# subsection Material NAME   # as Material, for a label of an image or a closed patch of a surface
+# end
+)";
+
   namespace
   {
     void in_section(dealii::ParameterHandler &prm,

@@ -140,12 +140,19 @@ namespace softcell
     const std::vector<double> distances =
       evaluate(*discretization_, displacement_, is_root ? probes_ : std::vector<Point>(), reach())
         .distances;
-    const auto is_far        = [](const double distance) { return std::isinf(distance); };
-    const unsigned int first = dealii::Utilities::MPI::broadcast(
-      MPI_COMM_WORLD, std::find_if(distances.begin(), distances.end(), is_far) - distances.begin());
+    const auto [lower, upper] = body_.bounding_box().get_boundary_points();
+    const double near         = 0.01 * (upper - lower).norm(); // surfaces are approximations
+    const auto is_in_body     = [&](const unsigned int i) {
+      const Point &X = probes_[i];
+      return std::isfinite(distances[i]) &&
+             (body_.contains(X) || X.distance(body_.surface().nearest(X).first) < near);
+    };
+    unsigned int first = 0;
+    while (is_root && first < probes_.size() && is_in_body(first))
+      ++first;
+    first = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, first);
     if (first == probes_.size())
       return;
-    const auto [lower, upper] = body_.bounding_box().get_boundary_points();
     std::ostringstream text;
     text << "Probes/" << parameters_.probes[first].first << " = '"
          << parameters_.probes[first].second << "' is not in the body, which lies between ("

@@ -13,10 +13,12 @@ namespace softcell
                       "How often a cell that the body's boundary or an interface of materials cuts "
                       "is halved to find what is filled; 0 counts it as full (sparse grid).",
                       dealii::Patterns::Integer(0, max_levels));
-    prm.add_parameter("Alpha", alpha,
-                      "Stiffness of the part of a cut cell outside the body, relative to the part "
-                      "inside; a small value such as 1e-6 steadies badly cut cells. Units: 1",
-                      dealii::Patterns::Double(0, 1));
+    prm.add_parameter(
+      "Alpha", alpha,
+      "Weight in the integrals of the part of a cut cell outside the body, relative "
+      "to the part inside; a small value such as 1e-6 steadies badly cut cells. "
+      "What is outside has mass and volume in this proportion too. Units: 1",
+      dealii::Patterns::Double(0, 0.01));
     prm.add_parameter("Weighted cell spread", spread,
                       "Part of its filled volume that a weighted cell spreads evenly over all of "
                       "its points if few of them hold it all; 0 is Brunet's rule, whose slightly "

@@ -63,6 +63,10 @@ namespace softcell
   std::vector<StudyCase> study_cases(const Parameters &parameters)
   {
     const StudyParameters &study = parameters.study;
+    if (!study.cells.empty() && !parameters.discretization.mesh.file.empty())
+      throw BadInput("Study/Cells = " + study.cells + " changes nothing about the mesh of " +
+                     "Discretization/Mesh file = " + parameters.discretization.mesh.file +
+                     "; remove one of the two.");
     std::vector<StudyCase> cases;
     for (const std::string &item : list_or_blank(study.methods))
     {
@@ -87,8 +91,8 @@ namespace softcell
             set("Method", item.empty() ? "" : method, "");
             set("Degree", degree, " p" + degree);
             set("Cells", cells, " n" + cells);
-            if (method == "tetrahedra" && !cells.empty())
-              set("Mesh size", "0", ""); // it would win over Cells
+            if (!cells.empty()) // which an edge length would win over
+              set(method == "tetrahedra" ? "Mesh size" : "Cell size", "0", "");
             set("Cut levels", level, " l" + level);
             std::replace(one.name.begin(), one.name.end(), ' ', '_');
             cases.push_back(one);
@@ -196,13 +200,19 @@ namespace softcell
                                : std::filesystem::path(parameters_.output.directory);
       record_.command_line = "softcell";
       for (const std::string &word : command_line)
-        record_.command_line += ' ' + word;
+        record_.command_line +=
+          word.find(' ') == std::string::npos ? ' ' + word : " '" + word + "'";
       record_.ranks      = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       record_.parameters = parameters_.entries;
 
-      console_.say("Body: " + parameters_.geometry.type + ' ' + parameters_.geometry.file);
       // A file may be missing on some ranks' machines only.
       on_all(MPI_COMM_WORLD, [&] { body_ = make_body(parameters_.geometry, record_.remarks); });
+      const auto [lower, upper] = body_->bounding_box().get_boundary_points();
+      std::ostringstream text;
+      text.precision(4);
+      text << "Body: " << parameters_.geometry.type << ", " << body_->volume() << " m^3 between ("
+           << lower << ") and (" << upper << ") m";
+      console_.say(text.str());
       for (const std::string &remark : record_.remarks)
         console_.say("  " + remark);
     }
@@ -276,7 +286,9 @@ namespace softcell
         throw;
       }
       write_record(n_failed_ == 0 ? "done" : "not converged",
-                   n_failed_ == 0 ? "" : std::to_string(n_failed_) + " cases did not converge");
+                   n_failed_ == 0 ? ""
+                                  : std::to_string(n_failed_) + " of " +
+                                      std::to_string(cases_.size()) + " cases did not converge");
       console_.say("Results: " + (folder_ / "results.csv").string());
       return n_failed_ == 0 ? 0 : 2;
     }

@@ -3,7 +3,7 @@
 """Runs the whole program and checks what it prints, returns and writes.
 
 usage: run_program.py SOFTCELL GROUP
-GROUP is one of command_line, bad_input, ranks, checkpoints, methods, organ.
+GROUP is one of command_line, bad_input, ranks, checkpoints, methods, studies, organ.
 """
 import json
 import math
@@ -199,6 +199,24 @@ end
     check(abs(tips[0] / tips[1] - 1) < 0.01, f"the prism bends alike on the meshes of Gmsh and CGAL: {tips}")
 
 
+def studies(folder):
+    """On the coarsest grids Brunet's studies show what they are there to show."""
+    def study(name, *settings):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        status, out, error = softcell(f"prm/studies/{name}.prm", *arguments, "--output", folder / name, folder=ROOT)
+        check(status == 0, f"{name}: status {status}: {out[-2000:]} {error[-2000:]}")
+        return {row["case"]: row for row in rows(folder / name / "results.csv")} if status == 0 else {}
+
+    bending = study("cylinder_bending", "Study/Methods = finite cell, weighted cell", "Study/Cells = 4, 8",
+                    "Study/Cut levels = 1", "Study/Reference = ")
+    # Brunet, section 4.6: weighted cells are within 5 % of finite cells; from 8 cells across within 1 %
+    for n, bound in ((4, 0.05), (8, 0.01)) if bending else ():
+        tips = [float(bending[f"{method}_n{n}_l1"]["tip_uy"]) for method in ("finite_cell", "weighted_cell")]
+        check(abs(tips[1] / tips[0] - 1) < bound, f"bending, {n} cells: {tips}")
+    for case, row in study("cylinder_stretching", "Study/Cells = 4", "Study/Cut levels = 0, 2").items():
+        check(int(row["load_steps"]) <= 3, f"stretching, {case}: {row['load_steps']} load steps")
+
+
 def organ(folder):
     """The liver of prm/liver.prm on a coarse grid: its volume, equilibrium, and the same on three ranks."""
     if not (ROOT / "data" / "liver.inr.gz").exists():
@@ -233,13 +251,19 @@ def organ(folder):
             rest = sum(float(row[f"{load}_f{axis}"]) for load in ("gravity", "diaphragm", "retractor"))
             check(abs(rest) < 1e-6 * weight, f"{method}: forces along {axis} sum up to {rest}")
 
+    example = (ROOT / "README.md").read_text().split("```")[1]
+    (folder / "readme.prm").write_text(example)
+    status, text, error = softcell(folder / "readme.prm", "--set", "Discretization/Cells = 10", "--output",
+                                   folder / "readme", folder=ROOT)
+    check(status == 0, f"README's example: status {status}: {text[-2000:]} {error[-2000:]}")
+
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
 program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
-     "methods": methods, "organ": organ}[sys.argv[2]](
+     "methods": methods, "studies": studies, "organ": organ}[sys.argv[2]](
         pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)

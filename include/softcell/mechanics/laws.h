@@ -6,12 +6,11 @@
 //   first_piola_stress(F)   P = dW/dF. Units: Pa
 //   second_piola_stress(F)  S = F^-1 P. Units: Pa
 //   cauchy_stress(F)        sigma = P F^T / J. Units: Pa
-//   linearisation(F)        the tangent at F: an object that turns dF into dP = (dP/dF) : dF, for
-//   any
-//                           dF or for a NodalGradient. dF may be a pack where F is a scalar.
-//   is_admissible(J)        whether all of these may be called where det F = J: a bool, or the mask
-//   of
-//                           a pack; false for NaN.
+//   linearisation(F)        the tangent at F: an object that turns dF into dP = (dP/dF) : dF,
+//                           for any dF or for a NodalGradient. dF may be a pack where F is a
+//                           scalar.
+//   is_admissible(J)        whether all of these may be called where det F = J: a bool, or the
+//                           mask of a pack; false for NaN.
 // `Real` is the type of the parameters; F's numbers are Real, packs of Real or derivatives of Real.
 #pragma once
 

@@ -55,13 +55,10 @@ namespace softcell
     std::string methods, degrees, cells, cut_levels, reference;
 
     void add_parameters(dealii::ParameterHandler &prm);
-
-    bool is_empty() const
-    {
-      return methods.empty() && degrees.empty() && cells.empty() && cut_levels.empty() &&
-             reference.empty();
-    }
   };
+
+  /// What may stand in the sections whose entries the user names, as comments of a parameter file.
+  extern const char *const free_sections;
 
   /// One parameter file, read.
   struct Parameters

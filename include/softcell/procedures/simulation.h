@@ -64,7 +64,7 @@ namespace softcell
     void write(const std::filesystem::path &folder);
 
   private:
-    /// @throws BadInput if a probe is beyond reach().
+    /// @throws BadInput if a probe is farther from the body than a hundredth of its diagonal.
     void check_probes() const;
 
     /// Takes displacement and load factor from a checkpoint. @throws BadInput
