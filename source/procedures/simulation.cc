@@ -252,6 +252,8 @@ namespace softcell
     row.set("cell_size", cell_size());
     if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
       row.set("load_energy", energy);
+    if (const double condition = model_->condition(); std::isfinite(condition))
+      row.set("condition", condition);
 
     const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const PointValues at_probes =

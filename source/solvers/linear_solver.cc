@@ -10,10 +10,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 #include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/tridiagonal_matrix.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <sstream>
 
 namespace softcell
@@ -103,6 +105,11 @@ namespace softcell
         return history_;
       }
 
+      double condition() const override
+      {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+
     private:
       static constexpr double acceptable_residual = 1e-5;
       std::unique_ptr<ApproximateInverse> factors_;
@@ -171,17 +178,23 @@ namespace softcell
       using IterativeSolver::IterativeSolver;
 
       unsigned int solve(Vector &x, const Vector &b) const override;
+      double condition() const override;
 
     private:
       std::string name() const override
       {
         return "conjugate gradients";
       }
+
+      /// Of the symmetric tridiagonal matrix of the Lanczos process.
+      mutable std::vector<double> diagonal_, beside_diagonal_;
     };
 
     unsigned int ConjugateGradients::solve(Vector &x, const Vector &b) const
     {
       history_.clear();
+      diagonal_.clear();
+      beside_diagonal_.clear();
       x.zero_out_ghost_values();
       x                   = 0.;
       const double b_norm = std::sqrt(finite_dot(b, b));
@@ -190,15 +203,16 @@ namespace softcell
       Vector r(matrix_->partitioner()), z(r), p(r), Ap(r);
       std::copy_n(b.begin(), b.locally_owned_size(), r.begin());
 
-      double rz_before = 1;
+      double rz_before = 1, curvature_before = 0;
       for (unsigned int iteration = 1; iteration <= parameters_.max_iterations; ++iteration)
       {
         if (inverse_)
           inverse_->vmult(z, r);
         else
           z = r;
-        const double rz = finite_dot(r, z);
-        p.sadd(iteration > 1 ? rz / rz_before : 0., 1., z);
+        const double rz    = finite_dot(r, z);
+        const double share = iteration > 1 ? rz / rz_before : 0.; // of the last direction
+        p.sadd(share, 1., z);
         matrix_->vmult(Ap, p);
         const double pAp = finite_dot(p, Ap);
         if (rz <= 0 || pAp <= 0) // the preconditioner or the matrix is indefinite
@@ -207,16 +221,37 @@ namespace softcell
             fail("cannot start: the preconditioner is not positive definite");
           if (iteration == 1) // as long as if the curvature had the other sign
             x.equ(pAp < 0 ? -rz / pAp : 1., p);
+          diagonal_.clear();
           return iteration;
         }
         x.add(rz / pAp, p);
         r.add(-rz / pAp, Ap);
-        rz_before = rz;
+        const double curvature = pAp / rz;
+        diagonal_.push_back(curvature + share * curvature_before);
+        beside_diagonal_.push_back(std::sqrt(share) * curvature_before); // with the one before
+        rz_before        = rz;
+        curvature_before = curvature;
         history_.push_back(std::sqrt(finite_dot(r, r)) / b_norm);
         if (history_.back() <= parameters_.tolerance)
           return iteration;
       }
       fail_at_the_limit();
+    }
+
+    double ConjugateGradients::condition() const
+    {
+      const unsigned int n = diagonal_.size();
+      if (n == 0)
+        return std::numeric_limits<double>::quiet_NaN();
+      dealii::TridiagonalMatrix<double> lanczos(n, true);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        lanczos(i, i) = diagonal_[i];
+        if (i > 0)
+          lanczos(i, i - 1) = beside_diagonal_[i];
+      }
+      lanczos.compute_eigenvalues();
+      return lanczos.eigenvalue(n - 1) / lanczos.eigenvalue(0);
     }
 
     /// Preconditioned from the right, so that it looks at the true residual.
@@ -226,6 +261,11 @@ namespace softcell
       using IterativeSolver::IterativeSolver;
 
       unsigned int solve(Vector &x, const Vector &b) const override;
+
+      double condition() const override
+      {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
 
     private:
       std::string name() const override

@@ -286,6 +286,7 @@ namespace
     b = 2.;
     EXPECT_EQ(solver->solve(x, b), 1u);
     EXPECT_DOUBLE_EQ(x(1), 2.);
+    EXPECT_TRUE(std::isnan(solver->condition()));
   }
 
   TEST(LinearSolver, rigid_body_modes_carry_no_spring_force)

@@ -54,6 +54,12 @@ namespace softcell
       return linear_solver_->history();
     }
 
+    /// LinearSolver::condition() of the last solve.
+    double condition() const
+    {
+      return linear_solver_->condition();
+    }
+
   private:
     void residual(const Vector &u, Vector &r);
     void linearise(const Vector &u);

@@ -57,6 +57,13 @@ namespace softcell
 
     /// |b - A x| / |b| after each iteration of the last solve().
     virtual const std::vector<double> &history() const = 0;
+
+    /// Condition number of the preconditioned matrix as the last solve() saw it: the ratio of the
+    /// extreme eigenvalues of the Lanczos matrix that conjugate gradients make along their way. It
+    /// is at most the true one, from which it differs by what b has no share in. NaN from other
+    /// solvers, and where the matrix or the preconditioner is indefinite. Source: Saad, Iterative
+    /// Methods for Sparse Linear Systems (2003), sec. 6.7.3.
+    virtual double condition() const = 0;
   };
 
   /// @param is_symmetric false for matrices that need not be: LU takes the place of LDL^T, and
