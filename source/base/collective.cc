@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Failures of one rank that all ranks hear of, so that none waits for ever.
+
 #include <softcell/base/collective.h>
 
 #include <softcell/base/exceptions.h>

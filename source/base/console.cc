@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// What a run tells its user while it works, and where its time and memory go.
+
 #include <softcell/base/console.h>
 
 #include <sys/ioctl.h>

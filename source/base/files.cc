@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Writing text files so that a reader never sees half of one.
+
 #include <softcell/base/files.h>
 
 #include <softcell/base/exceptions.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Expressions that a user writes, in muParser's syntax.
+
 #include <softcell/base/formula.h>
 
 #include <softcell/base/exceptions.h>

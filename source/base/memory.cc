@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// How much memory this machine has to give, and whether it is enough.
+
 #include <softcell/base/memory.h>
 
 #include <softcell/base/exceptions.h>

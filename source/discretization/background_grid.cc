@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <softcell/base/exceptions.h>
+// The octree of hexahedra around a body.
+
 #include <softcell/discretization/background_grid.h>
+
+#include <softcell/base/exceptions.h>
 #include <softcell/quadrature/octree.h>
 
 #include <deal.II/distributed/tria.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// How large a discretization will be, before it is built.
+
 #include <softcell/discretization/expected_size.h>
 
 #include <softcell/geometry/surface.h>

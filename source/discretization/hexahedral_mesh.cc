@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Hexahedral meshes of the two shapes that have a natural one.
+
 #include <softcell/discretization/hexahedral_mesh.h>
 
 #include <cmath>

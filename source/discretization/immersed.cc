@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <softcell/base/exceptions.h>
+// Finite cell, weighted cell and sparse grid: their cells and patches.
+
 #include <softcell/discretization/immersed.h>
+
+#include <softcell/base/exceptions.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

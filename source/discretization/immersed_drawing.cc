@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The cells of an immersed discretization for VTK.
+
 #include <softcell/discretization/immersed.h>
 
 #include <vtkCellType.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How the nodes of active cells get their numbers and owners.
+
 #include <softcell/discretization/immersed.h>
 
 #include <deal.II/base/partitioner.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The list of methods.
 
+#include <softcell/discretization/methods.h>
+
 #include <softcell/discretization/fitted.h>
 #include <softcell/discretization/immersed.h>
-#include <softcell/discretization/methods.h>
 
 namespace softcell
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Named parts of a body's boundary.
+
 #include <softcell/discretization/region.h>
 
 #include <softcell/base/formula.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Better tetrahedra for a mesh that Delaunay refinement has made.
+
 #include <softcell/discretization/sliver_removal.h>
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Lagrange shape functions of any degree on boxes.
+
 #include <softcell/discretization/tensor_shapes.h>
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Tetrahedral meshes: of any body by CGAL, from a Gmsh file, and the structured one of a box.
+
+#include <softcell/discretization/tetrahedral_mesh.h>
+
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/sliver_removal.h>
-#include <softcell/discretization/tetrahedral_mesh.h>
 #include <softcell/geometry/surface.h>
 
 #include <deal.II/grid/grid_in.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The parameter section Geometry, and the list of all bodies.
 
-#include <softcell/base/exceptions.h>
 #include <softcell/geometry/geometry.h>
+
+#include <softcell/base/exceptions.h>
 #include <softcell/geometry/image_body.h>
 #include <softcell/geometry/shapes.h>
 #include <softcell/geometry/surface_body.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The body that chosen labels of a segmentation form.
 
-#include <softcell/base/exceptions.h>
 #include <softcell/geometry/image_body.h>
+
+#include <softcell/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// The displacement of a run as an HDF5 file, to go on from or to read elsewhere.
+
 #include <softcell/output/checkpoint.h>
 
 #include <softcell/base/exceptions.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// results.csv: one row for every solved case.
+
 #include <softcell/output/results.h>
 
 #include <softcell/base/files.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// run.json: what was run, with what, where and for how long.
+
 #include <softcell/output/run_record.h>
 
 #include <softcell/base/files.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Displacements and stresses as files for ParaView.
+
 #include <softcell/output/solution.h>
 
 #include <softcell/base/exceptions.h>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <softcell/base/exceptions.h>
+// The list of cut-cell rules.
+
 #include <softcell/quadrature/cut_rule.h>
+
+#include <softcell/base/exceptions.h>
 #include <softcell/quadrature/finite_cell.h>
 #include <softcell/quadrature/octree.h>
 #include <softcell/quadrature/weighted_cell.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// The finite cell rule: Gauss points on the leaves of an octree.
+
 #include <softcell/quadrature/finite_cell.h>
 
 #include <deal.II/base/quadrature_lib.h>

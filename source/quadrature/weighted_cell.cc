@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <softcell/quadrature/octree.h>
+// The weighted cell rule: the cell's own Gauss points, weighted by what is filled around them.
+
 #include <softcell/quadrature/weighted_cell.h>
+
+#include <softcell/quadrature/octree.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

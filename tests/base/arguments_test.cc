@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// What the command line may hold, and what is said of the rest.
+
 #include <softcell/base/arguments.h>
 
 #include <softcell/base/exceptions.h>

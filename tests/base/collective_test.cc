@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// All ranks hear of a failure, in every way that one can fail.
+
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 

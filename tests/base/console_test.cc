@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Progress in logs and on terminals, and the sums of timers.
+
 #include <softcell/base/console.h>
 
 #include <gtest/gtest.h>

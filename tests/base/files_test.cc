@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Files are replaced as a whole; a user hears what cannot be written.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 

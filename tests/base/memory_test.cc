@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Memory that is left and how ranks share it.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/base/memory.h>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Parameter files as users write them, right and wrong.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/base/parameters.h>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Cells against those that the body's shape allows.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/background_grid.h>
 #include <softcell/geometry/shapes.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What is foreseen against what is made.
+
 #include <softcell/base/block_matrix.h>
 #include <softcell/discretization/expected_size.h>
 

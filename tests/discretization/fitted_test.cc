@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Conforming elements: integrals, exactness, regions and places, on any number of ranks.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/fitted.h>
 #include <softcell/discretization/hexahedral_mesh.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Meshes of hexahedra: how many cells, how they lie, what they fill.
+
 #include <softcell/discretization/hexahedral_mesh.h>
 
 #include <gtest/gtest.h>

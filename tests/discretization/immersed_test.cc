@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Counts, nodes and shapes of immersed discretizations.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/shapes.h>

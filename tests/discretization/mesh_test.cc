@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Which mesh a user gets for what is asked.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/mesh.h>
 

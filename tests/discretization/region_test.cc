@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Regions told by expressions and by patch numbers.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/region.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Slivers inside a mesh and on its boundary.
+
 #include <softcell/discretization/sliver_removal.h>
 #include <softcell/discretization/tetrahedral_mesh.h>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Lagrange shapes reproduce polynomials.
+
 #include <softcell/discretization/tensor_shapes.h>
 
 #include <gtest/gtest.h>

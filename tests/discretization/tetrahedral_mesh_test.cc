@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Meshes of tetrahedra: volumes, sharp edges, labels, files, and the structured one.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/tetrahedral_mesh.h>
 #include <softcell/geometry/shapes.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Checkpoints read back, and what is wrong with others.
+
 #include "one_tetrahedron.h"
 
 #include <softcell/base/exceptions.h>

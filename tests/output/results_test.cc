@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// results.csv as a reader of tables sees it.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/output/results.h>
 

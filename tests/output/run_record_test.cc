@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// run.json reads back as JSON.
+
 #include <softcell/output/run_record.h>
 
 #include <boost/property_tree/json_parser.hpp>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Files for ParaView read back in VTK.
+
 #include "one_tetrahedron.h"
 
 #include <softcell/base/exceptions.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// What all cut-cell rules have in common.
+
 #include <softcell/base/exceptions.h>
 #include <softcell/quadrature/cut_rule.h>
 

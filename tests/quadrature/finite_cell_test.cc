@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// The finite cell rule against exact volumes and moments.
+
 #include <softcell/quadrature/finite_cell.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// The weighted cell rule against finite cell's volumes and exact weights.
+
 #include <softcell/quadrature/finite_cell.h>
 #include <softcell/quadrature/weighted_cell.h>
 

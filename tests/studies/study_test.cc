@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// The cases that a study makes of its lists.
 
 #include <softcell/base/exceptions.h>
 #include <softcell/studies/study.h>
