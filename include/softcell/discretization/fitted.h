@@ -11,6 +11,8 @@
 
 namespace softcell
 {
+  struct FittedCells;
+
   /// Isoparametric Lagrange elements, one patch per cell (Brunet, ch. 2).
   ///
   /// Nodes lie on the cell's lattice of equidistant points. Tetrahedra stay straight at degree 2;
@@ -49,7 +51,6 @@ namespace softcell
     DrawnCells drawn_cells() const override;
 
   private:
-    struct Data;
-    std::unique_ptr<Data> data_;
+    std::unique_ptr<FittedCells> cells_;
   };
 } // namespace softcell

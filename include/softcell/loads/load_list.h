@@ -5,6 +5,7 @@
 #include <softcell/geometry/surface.h>
 #include <softcell/loads/imposed_displacement.h>
 #include <softcell/loads/load.h>
+#include <softcell/loads/load_description.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -27,32 +28,6 @@ namespace softcell
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);
   };
-
-  /// One load of an entry `NAME = kind value; kind value; ...` of the section Loads.
-  struct LoadDescription
-  {
-    enum class Kind
-    {
-      displacement,
-      traction,
-      pressure,
-      springs
-    };
-
-    std::string region;
-    Kind kind;
-    std::string value; // its expressions
-    std::string place; // `Loads/NAME = 'kind value'`, for messages
-  };
-
-  /// Reads entries (name of a region, text):
-  ///   clamp | displacement ux, uy, uz | traction tx, ty, tz | pressure p | springs k
-  /// with values in m, Pa and Pa/m that are expressions of x, y, z and t. Values that do not
-  /// contain t are multiplied by the load factor t, but for k.
-  /// @throws BadInput
-  std::vector<LoadDescription>
-  parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,
-              const std::vector<Region> &regions);
 
   /// What acts on a body and what holds it.
   struct Loads

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The entries of the section Loads, one for each region.
+#pragma once
+
+#include <softcell/discretization/region.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace softcell
+{
+  /// One load of an entry `NAME = kind value; kind value; ...` of the section Loads.
+  struct LoadDescription
+  {
+    enum class Kind
+    {
+      displacement,
+      traction,
+      pressure,
+      springs
+    };
+
+    std::string region;
+    Kind kind;
+    std::string value; // its expressions
+    std::string place; // `Loads/NAME = 'kind value'`, for messages
+  };
+
+  /// Reads entries (name of a region, text):
+  ///   clamp | displacement ux, uy, uz | traction tx, ty, tz | pressure p | springs k
+  /// with values in m, Pa and Pa/m that are expressions of x, y, z and t. Values that do not
+  /// contain t are multiplied by the load factor t, but for k.
+  /// @throws BadInput
+  std::vector<LoadDescription>
+  parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,
+              const std::vector<Region> &regions);
+
+  /// The region of this name. @throws BadInput if there is none.
+  const Region &find_region(const std::string &name, const std::vector<Region> &regions);
+} // namespace softcell
