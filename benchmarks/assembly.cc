@@ -45,7 +45,10 @@ namespace
     const Vector u = bent(lattice);
     BlockMatrix K(lattice.partitioner(), elasticity.couplings());
     for (auto _ : state)
+    {
+      K.set_zero();
       elasticity.add_tangent(u, K);
+    }
     report(state, lattice, n_points);
   }
 

@@ -42,4 +42,19 @@ namespace softcell
           }
     return Surface(std::move(vertices), std::move(triangles));
   }
+
+  /// A box whose sides lie across all axes, each of them a patch.
+  inline Surface turned_box_surface(const Point &size)
+  {
+    const Surface box = box_surface(size, 1);
+    std::vector<Point> vertices;
+    for (const Point &X : box.vertices())
+      vertices.push_back(
+        Point(2 * X[0] - 2 * X[1] + X[2], 2 * X[0] + X[1] - 2 * X[2], X[0] + 2 * X[1] + 2 * X[2]) /
+        3);
+    std::vector<unsigned int> patches;
+    for (unsigned int t = 0; t < box.triangles().size(); ++t)
+      patches.push_back(t / 2);
+    return Surface(vertices, box.triangles(), patches);
+  }
 } // namespace softcell

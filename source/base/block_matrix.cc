@@ -315,6 +315,24 @@ namespace softcell
     }
   }
 
+  Vector BlockMatrix::diagonal() const
+  {
+    const Data &d                = *data_;
+    const unsigned int first_row = d.unknowns->local_range().first / 3;
+    Vector result(d.unknowns);
+    for (unsigned int row = 0; row < d.n_owned; ++row)
+    {
+      const std::size_t begin  = d.row_start[row];
+      const std::size_t length = d.row_start[row + 1] - begin;
+      const auto columns       = d.columns.begin() + begin;
+      const std::size_t block =
+        std::lower_bound(columns, columns + length, first_row + row) - columns;
+      for (unsigned int c = 0; c < 3; ++c)
+        result.local_element(3 * row + c) = d.values[9 * begin + (c * length + block) * 3 + c];
+    }
+    return result;
+  }
+
   const std::vector<std::size_t> &BlockMatrix::row_start() const
   {
     return data_->row_start;

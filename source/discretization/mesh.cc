@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The choice of a conforming mesh.
-#include <softcell/base/exceptions.h>
-#include <softcell/discretization/hexahedral_mesh.h>
+
 #include <softcell/discretization/mesh.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/background_grid.h>
+#include <softcell/discretization/hexahedral_mesh.h>
 #include <softcell/discretization/tetrahedral_mesh.h>
 
 #include <algorithm>
@@ -46,15 +49,13 @@ namespace softcell
 
   std::array<unsigned int, 3> cells_along(const Box &box, const std::vector<unsigned int> &cells)
   {
-    if (cells.size() == 3)
-      return {{cells[0], cells[1], cells[2]}};
-    if (cells.size() != 1)
-      throw BadInput("Discretization/Cells has " + std::to_string(cells.size()) +
-                     " numbers; give one for the shortest side or three for x, y and z.");
+    GridParameters grid;
+    grid.cells = cells;
+    Direction h;
+    grid_cells(grid, box, h);
     std::array<unsigned int, 3> n;
-    const double shortest = std::min({box.side_length(0), box.side_length(1), box.side_length(2)});
     for (unsigned int d = 0; d < 3; ++d)
-      n[d] = std::lround(cells[0] * box.side_length(d) / shortest);
+      n[d] = std::lround(box.side_length(d) / h[d]);
     return n;
   }
 

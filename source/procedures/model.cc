@@ -23,25 +23,6 @@ namespace softcell
       return std::all_of(loads.forces.begin(), loads.forces.end(),
                          [](const auto &force) { return force->has_symmetric_tangent(); });
     }
-
-    /// Mean magnitude of the diagonal of the owned rows of all ranks.
-    double mean_diagonal(const BlockMatrix &matrix)
-    {
-      const Partitioner &unknowns  = *matrix.partitioner();
-      const unsigned int n_owned   = unknowns.locally_owned_size() / 3;
-      const unsigned int first_row = unknowns.local_range().first / 3;
-      double sum                   = 0;
-      for (unsigned int row = 0; row < n_owned; ++row)
-      {
-        const std::size_t begin = matrix.row_start()[row];
-        const std::size_t n     = matrix.row_start()[row + 1] - begin;
-        const auto columns      = matrix.columns().begin() + begin;
-        const std::size_t block = std::lower_bound(columns, columns + n, first_row + row) - columns;
-        for (unsigned int c = 0; c < 3; ++c)
-          sum += std::abs(matrix.values()[9 * begin + (c * n + block) * 3 + c]);
-      }
-      return dealii::Utilities::MPI::sum(sum, unknowns.get_mpi_communicator()) / unknowns.size();
-    }
   } // namespace
 
   Model::Model(const Discretization &discretization,
@@ -144,7 +125,7 @@ namespace softcell
       Vector missing = discretization_.make_vector();
       loads_.imposed.missing(u, load_factor_, missing);
       tangent_.vmult(lift_, missing);
-      diagonal_ = mean_diagonal(tangent_);
+      diagonal_ = tangent_.diagonal().l1_norm() / lift_.size(); // the mean
       tangent_.constrain(loads_.imposed.unknowns(), diagonal_);
     }
     linear_solver_->set_matrix(tangent_, discretization_.node_positions(),

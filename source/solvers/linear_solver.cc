@@ -37,25 +37,10 @@ namespace softcell
                       const std::vector<Point> & /*positions*/,
                       const std::vector<unsigned int> & /*constrained*/) override
       {
-        const Partitioner &unknowns = *matrix.partitioner();
-        const unsigned int n_owned  = unknowns.locally_owned_size() / 3;
-        inverse_diagonal_.resize(3 * n_owned);
-        for (unsigned int row = 0; row < n_owned; ++row)
-        {
-          const std::size_t begin  = matrix.row_start()[row];
-          const std::size_t length = matrix.row_start()[row + 1] - begin;
-          const auto columns       = matrix.columns().begin() + begin;
-          const std::size_t diagonal =
-            std::lower_bound(columns, columns + length, unknowns.local_range().first / 3 + row) -
-            columns;
-          for (unsigned int a = 0; a < 3; ++a)
-          {
-            // Positive even where an indefinite matrix has a negative one; 1 in an empty row.
-            const double entry =
-              std::abs(matrix.values()[9 * begin + (a * length + diagonal) * 3 + a]);
-            inverse_diagonal_[3 * row + a] = entry > 0 ? 1 / entry : 1.;
-          }
-        }
+        inverse_diagonal_ = matrix.diagonal();
+        // Positive even where an indefinite matrix has a negative one; 1 in an empty row.
+        for (double &entry : inverse_diagonal_)
+          entry = entry != 0 ? 1 / std::abs(entry) : 1.;
       }
 
       void vmult(Vector &y, const Vector &x) const override
@@ -65,7 +50,7 @@ namespace softcell
       }
 
     private:
-      std::vector<double> inverse_diagonal_;
+      Vector inverse_diagonal_;
     };
 
     class DirectSolver : public LinearSolver
@@ -142,6 +127,15 @@ namespace softcell
       }
 
     protected:
+      /// Sets x to 0. @return the norm of b; if that is 0, x is the solution.
+      double start(Vector &x, const Vector &b) const
+      {
+        history_.clear();
+        x.zero_out_ghost_values();
+        x = 0.;
+        return std::sqrt(finite_dot(b, b));
+      }
+
       double finite_dot(const Vector &x, const Vector &y) const
       {
         const double product = dot(x, y);
@@ -192,12 +186,9 @@ namespace softcell
 
     unsigned int ConjugateGradients::solve(Vector &x, const Vector &b) const
     {
-      history_.clear();
       diagonal_.clear();
       beside_diagonal_.clear();
-      x.zero_out_ghost_values();
-      x                   = 0.;
-      const double b_norm = std::sqrt(finite_dot(b, b));
+      const double b_norm = start(x, b);
       if (b_norm == 0)
         return 0;
       Vector r(matrix_->partitioner()), z(r), p(r), Ap(r);
@@ -276,10 +267,7 @@ namespace softcell
 
     unsigned int GMRES::solve(Vector &x, const Vector &b) const
     {
-      history_.clear();
-      x.zero_out_ghost_values();
-      x                   = 0.;
-      const double b_norm = std::sqrt(finite_dot(b, b));
+      const double b_norm = start(x, b);
       if (b_norm == 0)
         return 0;
 

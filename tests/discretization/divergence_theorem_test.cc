@@ -16,18 +16,6 @@ namespace softcell
 {
   namespace
   {
-    /// A box whose sides lie across all axes.
-    std::unique_ptr<Body> turned_box()
-    {
-      const Surface box = box_surface(Point(1, 1.25, 1.5), 1);
-      std::vector<Point> vertices;
-      for (const Point &X : box.vertices())
-        vertices.push_back(Point(2 * X[0] - 2 * X[1] + X[2], 2 * X[0] + X[1] - 2 * X[2],
-                                 X[0] + 2 * X[1] + 2 * X[2]) /
-                           3);
-      return std::make_unique<SurfaceBody>(Surface(vertices, box.triangles()));
-    }
-
     /// A ball of 24 voxels across with a corner cut off.
     std::unique_ptr<Body> voxels()
     {
@@ -63,7 +51,8 @@ namespace softcell
       p.parameters.grid.cells = {4};
       p.parameters.grid.scale = 1.13; // not as the body's sides
       std::vector<std::string> remarks;
-      p.body = type == "surface" ? turned_box()
+      p.body = type == "surface"
+                 ? std::make_unique<SurfaceBody>(turned_box_surface(p.geometry.size))
                : type == "image" ? voxels()
                                  : make_body(p.geometry, remarks);
       return p;

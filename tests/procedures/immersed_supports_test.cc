@@ -62,32 +62,6 @@ TEST(ImmersedSupports, cut_cells_pass_the_patch_test)
     }
 }
 
-/// A ball that is imposed a linear displacement through Nitsche's method: the error is that of the
-/// cut quadrature.
-TEST(ImmersedSupports, finite_cell_passes_the_patch_test_as_its_levels_grow)
-{
-  const auto error = [](const std::string &method, const unsigned int levels) {
-    Parameters p                = body_of("sphere", {method.c_str(), 1}, 4);
-    p.discretization.cut.levels = levels;
-    p.material.model            = "linear";
-    p.regions                   = {{"skin", "1"}};
-    p.load_entries              = {{"skin", "displacement 0.1*x+0.2*y, -0.05*x, 0.15*z"}};
-    p.loads.imposition          = "Nitsche";
-    p.probes                    = {{"a", "0.1, -0.2, 0.6"}};
-    const Solved solved         = solve(p);
-    return (vector_in(solved.row, "a_u") - Direction({-0.03, -0.005, 0.09})).norm() / 0.1;
-  };
-  const double coarse = error("finite cell", 1), fine = error("finite cell", 4);
-  const double weighted = error("weighted cell", 4);
-  if (is_root())
-  {
-    EXPECT_LT(fine, coarse / 4);
-    EXPECT_LT(fine, 1e-3);
-    RecordProperty("weighted_cell_defect", std::to_string(weighted));
-    EXPECT_LT(weighted, 0.05);
-  }
-}
-
 /// A ball that is imposed u = grad (x^3 - 3 x y^2) / 10 at x, y, z about its centre: harmonic and
 /// free of divergence, so in equilibrium. Nitsche's method converges with the cells. The misfit of
 /// a penalty of fixed stiffness k, traction / k, does not fall with them.

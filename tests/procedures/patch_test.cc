@@ -32,21 +32,6 @@ namespace softcell
                                  {"tetrahedra", 1},
                                  {"tetrahedra", 2}};
 
-    /// A cube whose sides lie across all axes, each of them a patch.
-    std::unique_ptr<Body> turned_cube()
-    {
-      const Surface cube = box_surface(Point(1, 1, 1), 1);
-      std::vector<Point> vertices;
-      for (const Point &X : cube.vertices())
-        vertices.push_back(Point(2 * X[0] - 2 * X[1] + X[2], 2 * X[0] + X[1] - 2 * X[2],
-                                 X[0] + 2 * X[1] + 2 * X[2]) /
-                           3);
-      std::vector<unsigned int> patches;
-      for (unsigned int t = 0; t < cube.triangles().size(); ++t)
-        patches.push_back(t / 2);
-      return std::make_unique<SurfaceBody>(Surface(vertices, cube.triangles(), patches));
-    }
-
     /// Relative error of the displacement's gradient (L2 over the rule's points) in a linear body
     /// under the tractions of a linear displacement, held by springs that are at rest there.
     /// @param scale of the grid, whose cells it moves.
@@ -73,7 +58,7 @@ namespace softcell
       p.material.model            = "linear";
       p.loads.imposition          = "penalty";
       p.loads.penalty             = "1000";
-      auto cube                   = turned_cube();
+      auto cube = std::make_unique<SurfaceBody>(turned_box_surface(Point(1, 1, 1)));
       for (unsigned int side = 0; side < 6; ++side)
       {
         const Direction traction = stress * cube->surface().normal(2 * side);

@@ -39,6 +39,9 @@ namespace softcell
     /// or ghost) by those of the identity times `diagonal`; call after compress(). Collective.
     void constrain(const std::vector<unsigned int> &local_unknowns, double diagonal);
 
+    /// The diagonal of the owned rows, without ghosts.
+    Vector diagonal() const;
+
     /// y = A x; x may be without ghosts. Collective.
     void vmult(Vector &y, const Vector &x) const;
 
