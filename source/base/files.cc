@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 namespace softcell
 {
@@ -36,5 +37,18 @@ namespace softcell
     if (error)
       throw BadInput("The folder '" + folder + "' cannot be made (" + error.message() +
                      "); give another one by --output DIR.");
+  }
+
+  void check_folder(const std::string &folder)
+  {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> missing; // the innermost one first
+    std::error_code error;
+    for (fs::path path = folder; !path.empty() && !fs::exists(path, error);
+         path          = path.parent_path())
+      missing.push_back(path);
+    make_folder(folder);
+    for (const fs::path &path : missing)
+      fs::remove(path, error);
   }
 } // namespace softcell

@@ -233,6 +233,7 @@ namespace softcell
 
     void Study::check()
     {
+      on_root(MPI_COMM_WORLD, [&] { check_folder(folder_.string()); });
       for (const Parameters &parameters : case_parameters_)
         check_memory(parameters, *body_, MPI_COMM_WORLD);
       if (reference_parameters_)

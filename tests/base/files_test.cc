@@ -43,4 +43,15 @@ TEST(Files, NamesWhatCannotBeWritten)
 TEST(Files, NamesAFolderThatCannotBeMade)
 {
   EXPECT_THROW(make_folder("/dev/null/folder"), BadInput);
+  EXPECT_THROW(check_folder("/dev/null/folder"), BadInput);
+}
+
+TEST(Files, LeavesNothingOfAFolderThatIsOnlyChecked)
+{
+  make_folder("files_test");
+  check_folder("files_test/some/more");
+  EXPECT_TRUE(std::filesystem::exists("files_test"));
+  EXPECT_FALSE(std::filesystem::exists("files_test/some"));
+  check_folder("files_test");
+  EXPECT_TRUE(std::filesystem::remove("files_test"));
 }

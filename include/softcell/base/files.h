@@ -13,4 +13,8 @@ namespace softcell
   /// Makes a folder and those above it, unless they are there.
   /// @throws BadInput if it cannot be made.
   void make_folder(const std::string &folder);
+
+  /// Sees whether make_folder() could make it, and leaves nothing behind.
+  /// @throws BadInput if not.
+  void check_folder(const std::string &folder);
 } // namespace softcell
