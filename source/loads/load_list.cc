@@ -240,22 +240,25 @@ namespace softcell
         check_numbers(value, points);
       }
 
-      /// The value must be a number at full load at every point, that of a stiffness not negative.
+      /// The value must be a number at every point, that of a stiffness not negative: at full load
+      /// and, if it speaks of t, at each tenth of it.
       void check_numbers(const Expression &value,
                          const std::vector<Point> &points,
                          const bool is_stiffness = false) const
       {
         std::ostringstream message;
-        for (const Point &X : points)
-        {
-          const Direction found = value.value(X, 1);
-          const bool is_number  = std::all_of(found.begin_raw(), found.end_raw(),
-                                              [](double c) { return std::isfinite(c); });
-          if ((is_number && !(is_stiffness && found[0] < 0)) || !message.str().empty())
-            continue;
-          message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
-                  << " at (" << X << "), t = 1; mend the expression or the region.";
-        }
+        for (unsigned int tenth = value.uses_time() ? 1 : 10; tenth <= 10; ++tenth)
+          for (const Point &X : points)
+          {
+            const Direction found = value.value(X, tenth / 10.);
+            const bool is_number  = std::all_of(found.begin_raw(), found.end_raw(),
+                                                [](double c) { return std::isfinite(c); });
+            if ((is_number && !(is_stiffness && found[0] < 0)) || !message.str().empty())
+              continue;
+            message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
+                    << " at (" << X << "), t = " << tenth / 10.
+                    << "; mend the expression or the region.";
+          }
         throw_on_all(discretization_.communicator(), message.str());
       }
 

@@ -216,6 +216,18 @@ namespace softcell
     return history_.converged;
   }
 
+  std::string Simulation::reason() const
+  {
+    return history_.reason +
+           "; the state that was reached is written: look there for the least J; " +
+           "a smaller load, more cells" +
+           (parameters_.material.model == "Saint-Venant-Kirchhoff"
+              ? " or, since Saint-Venant-Kirchhoff softens under compression, 'Material/Model = "
+                "Neo-Hookean'"
+              : " or a smaller 'Solver/Smallest load step'") +
+           " may help";
+  }
+
   double Simulation::reach() const
   {
     const auto [lower, upper] = body_.bounding_box().get_boundary_points();

@@ -154,7 +154,10 @@ namespace softcell
       {
         fail("reached a relative residual of " + in_short(history_.back()) + " instead of " +
              in_short(parameters_.tolerance) + " in " + std::to_string(parameters_.max_iterations) +
-             " iterations");
+             " iterations (" +
+             (parameters_.preconditioner == "AMG" ? "'Solver/Linear solver = direct'"
+                                                  : "'Solver/Preconditioner = AMG'") +
+             " may do better)");
       }
 
       /// Within a message.

@@ -160,7 +160,9 @@ namespace softcell
       u_.update_ghost_values();
       if (!evaluate_trial(0.))
       {
-        result.reason = "a point is inverted before the first iteration";
+        result.reason = std::isfinite(dot(trial_r_, trial_r_)) // still 0
+                          ? "a point is inverted before the first iteration"
+                          : "a force is not a finite number before the first iteration";
         return result;
       }
       r_.swap(trial_r_);

@@ -174,6 +174,7 @@ namespace softcell
     EXPECT_TRUE(says(says_of("top", "traction 0, x = 3, 0"), "'==' does"));
     EXPECT_TRUE(says(says_of("base", "springs 0.5 - x"), "is negative at"));
     EXPECT_TRUE(says(says_of("top", "pressure 1/(x-x)"), "not a finite number at"));
+    EXPECT_TRUE(says(says_of("top", "pressure log(t - 0.35)"), "t = 0.1;"));
     EXPECT_TRUE(says(says_of("top", ""), "is empty"));
     EXPECT_TRUE(says(says_of("nothing", "clamp"), "Regions/nothing selects nothing"));
     EXPECT_TRUE(says(says_of("nothing", "pressure 1"), "Regions/nothing selects nothing"));

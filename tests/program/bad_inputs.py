@@ -92,6 +92,8 @@ BAD_INPUTS = [
     ("free to move", ["Loads/base = traction 0, 30, 0"], None, ["free"]),
     ("assignment in a load", ["Loads/top = traction 0, x = 3, 0"], None, ["Loads/top", "x = 3", "=="]),
     ("load without end", ["Loads/top = traction 1/0, 0, 0"], None, ["Loads/top", "finite"]),
+    ("load without a value on the way", ["Loads/top = traction sqrt(t - 0.25), 0, 0"], None,
+     ["Loads/top", "finite", "t = 0.1"]),
     ("springs that push", ["Loads/base = springs -1e6"], None, ["Loads/base", "-1e6", "negative"]),
     ("springs of no stiffness", ["Loads/base = springs 0"], None, ["free to move along x, y and z"]),
     ("negative penalty", ["Loads/Penalty = -5", "Loads/Imposed displacement = penalty"], None,

@@ -35,10 +35,8 @@ namespace softcell
     /// @param folder for the states that `Every` asks for.
     bool solve(const std::filesystem::path &folder);
 
-    const std::string &reason() const
-    {
-      return history_.reason;
-    }
+    /// One clause, with advice.
+    std::string reason() const;
     const Discretization &discretization() const
     {
       return *discretization_;
