@@ -53,8 +53,9 @@ namespace softcell
     EXPECT_EQ((Wish{"box", CellShape::tetrahedra, {2}}.mesh().n_cells()), 6u * 48);
     // A core of 2 x 2 and a ring of 8 cells, 8 layers.
     EXPECT_EQ((Wish{"cylinder", CellShape::hexahedra, {4}}.mesh().n_cells()), 12u * 8);
-    EXPECT_NE((Wish{"box", CellShape::hexahedra, {2, 3}}.complaint().find("Cells has 2 numbers")),
-              std::string::npos);
+    EXPECT_NE(
+      (Wish{"box", CellShape::hexahedra, {2, 3}}.complaint().find("Cells = 2, 3 has two numbers")),
+      std::string::npos);
   }
 
   TEST(Mesh, IsMadeByCgalWhereASizeIsGiven)
