@@ -10,9 +10,9 @@ namespace softcell
 {
   void DiscretizationParameters::add_parameters(dealii::ParameterHandler &prm)
   {
-    std::string names = "tetrahedra|hexahedra";
-    for (const std::string &name : cut_rule_names())
-      names += '|' + name;
+    std::string names;
+    for (const std::string &name : method_names())
+      names += (names.empty() ? "" : "|") + name;
     prm.add_parameter("Method", method,
                       "How displacements are represented and integrated: hexahedra of a background "
                       "grid that the body cuts (finite cell, weighted cell, sparse grid), or a "
@@ -23,6 +23,14 @@ namespace softcell
     grid.add_parameters(prm);
     cut.add_parameters(prm);
     mesh.add_parameters(prm);
+  }
+
+  std::vector<std::string> method_names()
+  {
+    std::vector<std::string> names = {"tetrahedra", "hexahedra"};
+    for (const std::string &name : cut_rule_names())
+      names.push_back(name);
+    return names;
   }
 
   bool has_cut_levels(const std::string &method)

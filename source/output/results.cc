@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 
 namespace softcell
@@ -35,6 +36,9 @@ namespace softcell
                                                        "l2_displacement",
                                                        "min_jacobian",
                                                        "converged"};
+    const std::vector<std::string> further_columns  = {
+       "load_factor",   "cell_size",        "load_energy", "relative_l2_error", "relative_h1_error",
+       "observed_rate", "observed_rate_h1", "failure",     "fingerprint"};
 
     std::string csv_cell(const std::string &text)
     {
@@ -52,6 +56,27 @@ namespace softcell
       for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "" : ",") + csv_cell(cells[i]);
       return text + '\n';
+    }
+    /// The cells of a table, line by line; the reverse of line() and csv_cell().
+    std::vector<std::vector<std::string>> csv_cells(std::istream &in)
+    {
+      std::vector<std::vector<std::string>> lines;
+      bool is_quoted = false, begins_line = true;
+      for (char c; in.get(c);)
+      {
+        if (begins_line)
+          lines.push_back({""});
+        begins_line = !is_quoted && c == '\n';
+        if (c == '"' && is_quoted && in.peek() == '"')
+          lines.back().back() += static_cast<char>(in.get());
+        else if (c == '"')
+          is_quoted = !is_quoted;
+        else if (c == ',' && !is_quoted)
+          lines.back().emplace_back();
+        else if (!begins_line)
+          lines.back().back() += c;
+      }
+      return lines;
     }
   } // namespace
 
@@ -88,27 +113,44 @@ namespace softcell
     return text.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
   }
 
-  ResultsTable::ResultsTable(std::string file) : file_(std::move(file)) {}
-
-  void ResultsTable::add(ResultsRow row)
+  std::vector<std::string> results_columns()
   {
-    rows_.push_back(std::move(row));
-    if (file_.empty())
-      return;
     std::vector<std::string> columns = standard_columns;
-    for (const ResultsRow &each : rows_)
-      for (const auto &entry : each.values())
+    columns.insert(columns.end(), further_columns.begin(), further_columns.end());
+    return columns;
+  }
+
+  void write_results(const std::string &file, const std::vector<ResultsRow> &rows)
+  {
+    std::vector<std::string> columns = standard_columns;
+    for (const ResultsRow &row : rows)
+      for (const auto &entry : row.values())
         if (std::find(columns.begin(), columns.end(), entry.first) == columns.end())
           columns.push_back(entry.first);
 
     std::string text = line(columns);
-    for (const ResultsRow &each : rows_)
+    for (const ResultsRow &row : rows)
     {
       std::vector<std::string> cells;
       for (const std::string &column : columns)
-        cells.push_back(each.get(column));
+        cells.push_back(row.get(column));
       text += line(cells);
     }
-    write_file(file_, text);
+    write_file(file, text);
+  }
+
+  std::vector<ResultsRow> read_results(const std::string &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<std::vector<std::string>> lines = csv_cells(in);
+    std::vector<ResultsRow> rows;
+    for (std::size_t i = 1; i < lines.size(); ++i)
+    {
+      rows.emplace_back();
+      for (std::size_t k = 0; k < std::min(lines[0].size(), lines[i].size()); ++k)
+        if (!lines[i][k].empty())
+          rows.back().set(lines[0][k], lines[i][k]);
+    }
+    return rows;
   }
 } // namespace softcell

@@ -9,6 +9,9 @@
 
 #include <deal.II/base/config.h>
 
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
 #include <CGAL/version.h>
 #include <mpi.h>
 #include <petscversion.h>
@@ -127,5 +130,24 @@ namespace softcell
   void write_run_record(const std::string &file, const RunRecord &record)
   {
     write_file(file, json(record));
+  }
+
+  std::vector<double> read_linear_residuals(const std::string &file)
+  {
+    std::vector<double> residuals;
+    try
+    {
+      boost::property_tree::ptree tree;
+      boost::property_tree::read_json(file, tree);
+      const auto &cases = tree.get_child("linear_residuals");
+      if (!cases.empty())
+        for (const auto &entry : cases.front().second)
+          residuals.push_back(entry.second.get_value<double>());
+    }
+    catch (const boost::property_tree::ptree_error &)
+    {
+      residuals.clear();
+    }
+    return residuals;
   }
 } // namespace softcell

@@ -28,6 +28,11 @@ namespace softcell
 # subsection Probes    # points of the body at rest whose displacement is reported
 #   set NAME = 0, 0, 0.6                    (m)
 # end
+# subsection Sweeps    # for a study: a column NAME of results.csv, and what its labels stand for
+#   set NAME = soft: Material/Young modulus = 500 | stiff: Material/Young modulus = 5e4; Loads/Gravity = 0, 0, 0
+#              Every label is combined with those of the other sweeps and with the lists of Study; a label
+#              without settings leaves the file as it is (`with: | without: Loads/Gravity = 0, 0, 0`).
+# end
 # subsection Material NAME   # as Material, for a label of an image or a closed patch of a surface
 # end
 )";
@@ -99,10 +104,15 @@ namespace softcell
                       numbers(1));
     prm.add_parameter("Cut levels", cut_levels, "List of levels, for the methods that cut cells.",
                       numbers(0));
-    prm.add_parameter("Reference", reference,
-                      "Settings, separated by semicolons, of a run whose displacement all others "
-                      "are measured against: `Discretization/Method = tetrahedra; "
-                      "Discretization/Degree = 2; Discretization/Mesh size = 0.01`.");
+    prm.add_parameter(
+      "Reference", reference,
+      "Settings, separated by semicolons, of a run whose displacement all others "
+      "are measured against: `Discretization/Method = tetrahedra; "
+      "Discretization/Degree = 2; Discretization/Mesh size = 0.01`. Where Sweeps "
+      "change Geometry, Regions, Material or Loads, it is run once for each of that.");
+    prm.add_parameter("Resume", resume,
+                      "Keep the cases that are in the output folder already, solved with the same "
+                      "parameters, commit and number of ranks; false solves them again.");
   }
 
   void Parameters::add_parameters(dealii::ParameterHandler &prm)
@@ -121,6 +131,7 @@ namespace softcell
     in_section(prm, "Probes", [] {});
     in_section(prm, "Output", [&] { output.add_parameters(prm); });
     in_section(prm, "Study", [&] { study.add_parameters(prm); });
+    in_section(prm, "Sweeps", [] {});
   }
 
   namespace
@@ -168,6 +179,7 @@ namespace softcell
       parameters.regions       = text.declare_free_entries("Regions", prm);
       parameters.load_entries  = text.declare_free_entries("Loads", prm);
       parameters.probes        = text.declare_free_entries("Probes", prm);
+      parameters.sweeps        = text.declare_free_entries("Sweeps", prm);
       const std::string prefix = "Material ";
       for (const std::string &section : text.sections(prefix))
       {
@@ -189,6 +201,7 @@ namespace softcell
       load_entries.push_back(name);
     check_names("Regions", parameters.regions, load_entries);
     check_names("Probes", parameters.probes);
+    check_names("Sweeps", parameters.sweeps);
     return parameters;
   }
 } // namespace softcell

@@ -6,11 +6,12 @@
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
-#include <softcell/output/results.h>
-#include <softcell/output/run_record.h>
 #include <softcell/procedures/expected_memory.h>
 #include <softcell/procedures/simulation.h>
 #include <softcell/studies/difference.h>
+#include <softcell/studies/observed_rates.h>
+#include <softcell/studies/study_cases.h>
+#include <softcell/studies/study_run.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -18,101 +19,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <new>
 #include <sstream>
 
 namespace softcell
 {
-  namespace
-  {
-    std::vector<std::string> list(const std::string &text, const char separator = ',')
-    {
-      std::vector<std::string> items = dealii::Utilities::split_string_list(text, separator);
-      items.erase(std::remove(items.begin(), items.end(), ""), items.end());
-      return items;
-    }
-
-    /// The items, or one empty item if there are none, so that a loop runs once and sets nothing.
-    std::vector<std::string> list_or_blank(const std::string &text)
-    {
-      const std::vector<std::string> items = list(text);
-      return items.empty() ? std::vector<std::string>{""} : items;
-    }
-
-    /// The same of whole numbers, each written in one way only.
-    std::vector<std::string> numbers(const std::string &text)
-    {
-      std::vector<std::string> items = list_or_blank(text);
-      for (std::string &item : items)
-        if (!item.empty())
-          item = std::to_string(dealii::Utilities::string_to_int(item));
-      return items;
-    }
-
-    /// `tetrahedra 2` as method and degree; an empty degree if none is given.
-    std::pair<std::string, std::string> method_and_degree(const std::string &text)
-    {
-      const std::size_t end = text.find_last_not_of("0123456789");
-      if (end == std::string::npos || end + 1 == text.size())
-        return {text, ""};
-      return {dealii::Utilities::trim(text.substr(0, end + 1)), text.substr(end + 1)};
-    }
-
-  } // namespace
-
-  std::vector<StudyCase> study_cases(const Parameters &parameters)
-  {
-    const StudyParameters &study = parameters.study;
-    if (!study.cells.empty() && !parameters.discretization.mesh.file.empty())
-      throw BadInput("Study/Cells = " + study.cells + " changes nothing about the mesh of " +
-                     "Discretization/Mesh file = " + parameters.discretization.mesh.file +
-                     "; remove one of the two.");
-    std::vector<StudyCase> cases;
-    for (const std::string &item : list_or_blank(study.methods))
-    {
-      const auto [named_method, own_degree] = method_and_degree(item);
-      const std::string method = item.empty() ? parameters.discretization.method : named_method;
-      const auto degrees =
-        own_degree.empty() ? numbers(study.degrees) : std::vector<std::string>{own_degree};
-      const auto levels =
-        has_cut_levels(method) ? numbers(study.cut_levels) : std::vector<std::string>{""};
-      for (const std::string &degree : degrees)
-        for (const std::string &cells : numbers(study.cells))
-          for (const std::string &level : levels)
-          {
-            StudyCase one{method, {}};
-            const auto set = [&](const std::string &entry, const std::string &value,
-                                 const std::string &tag) {
-              if (value.empty())
-                return;
-              one.settings.push_back("Discretization/" + entry + " = " + value);
-              one.name += tag;
-            };
-            set("Method", item.empty() ? "" : method, "");
-            set("Degree", degree, " p" + degree);
-            set("Cells", cells, " n" + cells);
-            if (!cells.empty()) // which an edge length would win over
-              set(method == "tetrahedra" ? "Mesh size" : "Cell size", "0", "");
-            set("Cut levels", level, " l" + level);
-            std::replace(one.name.begin(), one.name.end(), ' ', '_');
-            cases.push_back(one);
-          }
-    }
-    const auto has_levels = [](const StudyCase &one) {
-      return one.settings.size() > 0 &&
-             one.settings.back().find("/Cut levels") != std::string::npos;
-    };
-    if (!study.cut_levels.empty() && std::none_of(cases.begin(), cases.end(), has_levels))
-      throw BadInput("Study/Cut levels = " + study.cut_levels +
-                     " means nothing to any of the methods; remove it.");
-    for (std::size_t i = 0; i < cases.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (cases[i].name == cases[k].name)
-          throw BadInput("Study asks for the case " + cases[i].name +
-                         " twice; remove one from its lists.");
-    return cases;
-  }
-
   namespace
   {
     /// The cases of a parameter file and what they have in common.
@@ -126,41 +37,55 @@ namespace softcell
 
       bool has_one_run() const
       {
-        return cases_.size() == 1 && !reference_parameters_;
+        return cases_.size() == 1 && references_.empty();
       }
 
-      /// Builds every run, so that a mistake in the last one shows at once; the reference stays.
+      /// Finds what is solved already.
+      void resume();
+
+      /// Builds every run that is to be solved, so that a mistake in the last one shows at once.
       void check();
 
-      /// Solves all. @return 0, or 2 if a case did not converge.
+      /// Solves all. @return 0, or 2 if a run did not converge.
       int run();
 
     private:
-      std::unique_ptr<Simulation> build_reference() const;
-      std::unique_ptr<Simulation> build_case(unsigned int i, const std::string &what) const;
-      void solve_reference();
-      /// Solves, writes and returns whether it converged.
-      bool solve_case(unsigned int i, Simulation &simulation);
-      void solve_all();
-      /// Adds the difference to the reference to a row, and the rate at which it fell since the
-      /// last row of the same method, degree and levels.
-      void add_errors(const Simulation &simulation, ResultsRow &row);
-      void say_what_is_left(unsigned int n_done) const;
+      struct Case : StudyRun
+      {
+        std::vector<std::pair<std::string, std::string>> labels;
+        unsigned int reference = 0;
+      };
+
+      void add_case(const std::string &file,
+                    const std::vector<std::string> &settings,
+                    const StudyCase &study_case);
+      std::filesystem::path folder_of(const StudyRun &run) const;
+      const Body &body_of(const Parameters &parameters);
+      std::unique_ptr<Simulation> build(StudyRun &run, const std::string &what);
       /// From now on there is a folder. Collective.
       void begin();
+      void solve_all();
+      /// Makes reference_ that of the case, solved, or empty if it does not converge.
+      void provide_reference(const Case &one);
+      void solve_case(Case &one, const std::string &what);
+      void fail(Case &one, const std::string &reason);
+      /// Adds the difference to the reference.
+      void add_errors(const Simulation &simulation, ResultsRow &row);
+      void write_table();
       void write_record(const std::string &status, const std::string &message);
+      void say_what_is_left();
+      unsigned int n_failed() const;
 
       Console &console_;
       Parameters parameters_;
-      std::vector<StudyCase> cases_;
-      std::vector<Parameters> case_parameters_;
-      std::optional<Parameters> reference_parameters_;
+      std::vector<Case> cases_; // those of the same reference together
+      std::vector<StudyRun> references_;
       std::filesystem::path folder_;
-      std::unique_ptr<Body> body_;
+      std::map<std::string, std::unique_ptr<Body>> bodies_;
       std::unique_ptr<Simulation> reference_;
-      std::unique_ptr<ResultsTable> table_; // once there is a folder
-      std::map<std::string, ResultsRow> last_of_series_;
-      unsigned int n_failed_ = 0;
+      unsigned int reference_index_ = dealii::numbers::invalid_unsigned_int; // of reference_
+      bool has_folder_              = false;
+      TimeLeft time_left_;
       RunRecord record_;
       Timers timers_;
     };
@@ -182,18 +107,28 @@ namespace softcell
       }
     }
 
+    Work work_of(const Parameters &parameters, const double points, const double unknowns)
+    {
+      return {parameters.discretization.method + std::to_string(parameters.discretization.degree),
+              points, unknowns};
+    }
+
     Study::Study(const std::string &file,
                  const std::vector<std::string> &settings,
                  const std::vector<std::string> &command_line,
                  Console &console)
-        : console_(console),
-          parameters_(read_parameters(file, settings)),
-          cases_(study_cases(parameters_))
+        : console_(console), parameters_(read_parameters(file, settings))
     {
-      for (const StudyCase &one : cases_)
-        case_parameters_.push_back(read_run(file, settings, one.settings, "Study"));
-      if (const std::string &reference = parameters_.study.reference; !reference.empty())
-        reference_parameters_ = read_run(file, settings, list(reference, ';'), "Study/Reference");
+      for (const Sweep &sweep : read_sweeps(parameters_.sweeps))
+        for (const Sweep::Choice &choice : sweep.choices)
+          read_run(file, settings, choice.settings, "Sweeps/" + sweep.name + ", " + choice.label);
+      for (const StudyCase &one : study_cases(parameters_))
+        add_case(file, settings, one);
+      std::stable_sort(cases_.begin(), cases_.end(), [](const Case &one, const Case &other) {
+        return one.reference < other.reference;
+      });
+      if (references_.size() == 1)
+        references_[0].name = "reference";
 
       folder_              = parameters_.output.directory.empty()
                                ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
@@ -204,49 +139,148 @@ namespace softcell
           word.find(' ') == std::string::npos ? ' ' + word : " '" + word + "'";
       record_.ranks      = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       record_.parameters = parameters_.entries;
+    }
 
+    void Study::add_case(const std::string &file,
+                         const std::vector<std::string> &settings,
+                         const StudyCase &study_case)
+    {
+      Case one;
+      one.name       = study_case.name;
+      one.labels     = study_case.labels;
+      one.parameters = read_run(file, settings, study_case.settings, "Study, case " + one.name);
+      if (!parameters_.study.reference.empty())
+      {
+        StudyRun reference;
+        reference.name               = "reference" + study_case.problem;
+        std::vector<std::string> all = study_case.problem_settings;
+        for (const std::string &setting :
+             dealii::Utilities::split_string_list(parameters_.study.reference, ';'))
+          if (!setting.empty())
+            all.push_back(setting);
+        reference.parameters                   = read_run(file, settings, all, "Study/Reference");
+        reference.parameters.output.checkpoint = true;
+        while (one.reference < references_.size() &&
+               own_entries(references_[one.reference].parameters) !=
+                 own_entries(reference.parameters))
+          ++one.reference;
+        if (one.reference == references_.size())
+          references_.push_back(reference);
+      }
+      cases_.push_back(one);
+    }
+
+    std::filesystem::path Study::folder_of(const StudyRun &run) const
+    {
+      return cases_.size() == 1 && &run == &cases_[0] ? folder_ : folder_ / run.name;
+    }
+
+    const Body &Study::body_of(const Parameters &parameters)
+    {
+      std::string key;
+      for (const auto &[name, value] : parameters.entries)
+        if (name.rfind("Geometry/", 0) == 0)
+          key += name + '=' + value + '\n';
+      for (const unsigned int label : parameters.geometry.labels) // some come with materials
+        key += std::to_string(label) + ' ';
+      std::unique_ptr<Body> &body = bodies_[key];
+      if (body)
+        return *body;
+      std::vector<std::string> remarks;
       // A file may be missing on some ranks' machines only.
-      on_all(MPI_COMM_WORLD, [&] { body_ = make_body(parameters_.geometry, record_.remarks); });
-      const auto [lower, upper] = body_->bounding_box().get_boundary_points();
+      on_all(MPI_COMM_WORLD, [&] { body = make_body(parameters.geometry, remarks); });
+      const auto [lower, upper] = body->bounding_box().get_boundary_points();
       std::ostringstream text;
       text.precision(4);
-      text << "Body: " << parameters_.geometry.type << ", " << body_->volume() << " m^3 between ("
+      text << "Body: " << parameters.geometry.type << ", " << body->volume() << " m^3 between ("
            << lower << ") and (" << upper << ") m";
       console_.say(text.str());
-      for (const std::string &remark : record_.remarks)
+      for (const std::string &remark : remarks)
         console_.say("  " + remark);
+      record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
+      return *body;
     }
 
-    std::unique_ptr<Simulation> Study::build_reference() const
+    std::unique_ptr<Simulation> Study::build(StudyRun &run, const std::string &what)
     {
-      console_.say("Reference: " + parameters_.study.reference);
-      return std::make_unique<Simulation>("reference", *reference_parameters_, *body_, console_);
+      const Body &body = body_of(run.parameters);
+      console_.say(what + run.name);
+      auto simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_);
+      const Size size = simulation->discretization().size();
+      run.work        = work_of(run.parameters, static_cast<double>(size.integration_points),
+                                static_cast<double>(size.unknowns));
+      return simulation;
     }
 
-    std::unique_ptr<Simulation> Study::build_case(const unsigned int i,
-                                                  const std::string &what) const
+    void Study::resume()
     {
-      console_.say(what + ' ' + std::to_string(i + 1) + " of " + std::to_string(cases_.size()) +
-                   ": " + cases_[i].name);
-      return std::make_unique<Simulation>(cases_[i].name, case_parameters_[i], *body_, console_);
+      const auto find = [&](StudyRun &run, const std::string &reference) {
+        // a case without a folder of its own is always solved
+        const std::filesystem::path folder = folder_of(run);
+        recall(run, parameters_.study.resume && folder != folder_ ? folder : "", record_.ranks,
+               reference);
+        if (run.is_solved())
+          time_left_.add(
+            work_of(run.parameters, run.row.number("integration_points"), run.row.number("dofs")),
+            run.row.number("total_s"));
+      };
+      for (StudyRun &reference : references_)
+        find(reference, "");
+      for (Case &one : cases_)
+        find(one, references_.empty() ? "" : references_[one.reference].fingerprint);
+      if (const auto n = std::count_if(cases_.begin(), cases_.end(),
+                                       [](const Case &one) { return one.is_solved(); });
+          n > 0)
+        console_.say("Solved before with the same parameters and program: " + std::to_string(n) +
+                     " of " + std::to_string(cases_.size()) +
+                     " cases; 'Study/Resume = false' solves them again.");
     }
 
     void Study::check()
     {
       on_root(MPI_COMM_WORLD, [&] { check_folder(folder_.string()); });
-      for (const Parameters &parameters : case_parameters_)
-        check_memory(parameters, *body_, MPI_COMM_WORLD);
-      if (reference_parameters_)
-        reference_ = build_reference();
+      for (const Case &one : cases_)
+        if (!one.is_solved())
+          check_memory(one.parameters, body_of(one.parameters), MPI_COMM_WORLD);
+      for (unsigned int i = references_.size(); i-- > 0;) // the first one stays, it is next
+        if (!references_[i].is_solved())
+        {
+          reference_       = build(references_[i], "Check of ");
+          reference_index_ = i;
+        }
       for (unsigned int i = 0; i < cases_.size(); ++i)
-        build_case(i, "Check of case");
+        if (!cases_[i].is_solved())
+          build(cases_[i], "Check of case " + std::to_string(i + 1) + " of " +
+                             std::to_string(cases_.size()) + ": ");
     }
 
     void Study::begin()
     {
+      if (has_folder_)
+        return;
+      has_folder_ = true;
       write_record("running", "");
-      const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      table_ = std::make_unique<ResultsTable>(is_root ? (folder_ / "results.csv").string() : "");
+      on_root(MPI_COMM_WORLD, [&] {
+        std::error_code error; // an old table would be taken for this run's
+        std::filesystem::remove(folder_ / "results.csv", error);
+      });
+      write_table();
+    }
+
+    void Study::write_table()
+    {
+      on_root(MPI_COMM_WORLD, [&] {
+        std::vector<ResultsRow> rows;
+        std::vector<std::string> sweeps;
+        for (const Case &one : cases_)
+          if (one.is_solved())
+            rows.push_back(one.row);
+        for (const auto &[name, label] : cases_[0].labels)
+          sweeps.push_back(name);
+        add_observed_rates(rows, sweeps);
+        if (!rows.empty())
+          write_results((folder_ / "results.csv").string(), rows);
+      });
     }
 
     void Study::write_record(const std::string &status, const std::string &message)
@@ -254,10 +288,23 @@ namespace softcell
       record_.status  = status;
       record_.message = message;
       record_.wall_s  = timers_.total();
+      record_.linear_residuals.clear();
+      for (const Case &one : cases_)
+        if (one.is_solved())
+          record_.linear_residuals.emplace_back(one.name, one.linear_residuals);
       on_root(MPI_COMM_WORLD, [&] {
         make_folder(folder_.string());
         write_run_record((folder_ / "run.json").string(), record_);
       });
+    }
+
+    unsigned int Study::n_failed() const
+    {
+      const auto has_failed = [](const StudyRun &run) {
+        return run.row.get("converged") == "false";
+      };
+      return std::count_if(cases_.begin(), cases_.end(), has_failed) +
+             std::count_if(references_.begin(), references_.end(), has_failed);
     }
 
     int Study::run()
@@ -268,13 +315,8 @@ namespace softcell
       }
       catch (const BadInput &error)
       {
-        if (table_)
+        if (has_folder_)
           write_record("failed", error.what());
-        throw;
-      }
-      catch (const NotConverged &error)
-      {
-        write_record("not converged", error.what());
         throw;
       }
       catch (const std::exception &error)
@@ -282,54 +324,127 @@ namespace softcell
         // Perhaps on this rank alone, so that nothing collective can be done.
         record_.status  = "failed";
         record_.message = error.what();
-        if (table_)
+        if (has_folder_)
           write_run_record((folder_ / "run.json").string(), record_);
         throw;
       }
-      write_record(n_failed_ == 0 ? "done" : "not converged",
-                   n_failed_ == 0 ? ""
-                                  : std::to_string(n_failed_) + " of " +
-                                      std::to_string(cases_.size()) + " cases did not converge");
+      const unsigned int n = n_failed();
+      write_record(n == 0 ? "done" : "not converged",
+                   n == 0 ? ""
+                          : std::to_string(n) + " of " +
+                              std::to_string(cases_.size() + references_.size()) +
+                              " runs did not converge");
       console_.say("Results: " + (folder_ / "results.csv").string());
-      return n_failed_ == 0 ? 0 : 2;
+      return n == 0 ? 0 : 2;
     }
 
     void Study::solve_all()
     {
-      if (reference_parameters_)
-        solve_reference();
+      if (!has_one_run()) // else only once it is built: a mistake leaves no folder behind
+        begin();
       for (unsigned int i = 0; i < cases_.size(); ++i)
+        if (Case &one = cases_[i]; !one.is_solved())
+        {
+          const std::string what =
+            "Case " + std::to_string(i + 1) + " of " + std::to_string(cases_.size()) + ": ";
+          try
+          {
+            if (!references_.empty())
+              provide_reference(one);
+            solve_case(one, what);
+          }
+          catch (const BadInput &error)
+          {
+            if (has_one_run())
+              throw;
+            fail(one, error.what());
+          }
+          catch (const std::bad_alloc &)
+          {
+            if (has_one_run() || record_.ranks > 1) // the others may be waiting for this one
+              throw;
+            fail(one, "out of memory; use fewer cells or more machines");
+          }
+          say_what_is_left();
+        }
+    }
+
+    void Study::provide_reference(const Case &one)
+    {
+      StudyRun &run = references_[one.reference];
+      if (reference_index_ != one.reference)
+        reference_.reset(); // before the next one needs memory
+      const std::filesystem::path folder = folder_of(run);
+      if (run.is_solved())
       {
-        const auto simulation = build_case(i, "Case");
-        if (!table_) // only now: a mistake while the only case is built leaves no folder behind
-          begin();
-        n_failed_ += !solve_case(i, *simulation);
-        say_what_is_left(i + 1);
-      }
-    }
-
-    void Study::solve_reference()
-    {
-      begin();
-      if (reference_->solve(folder_ / "reference"))
+        if (reference_index_ == one.reference || run.row.get("converged") == "false")
+          return;
+        StudyRun again                        = run;
+        again.parameters.procedure.start_from = (folder / "checkpoint.h5").string();
+        reference_                            = build(again, "Solved before: ");
+        reference_index_                      = one.reference;
         return;
-      reference_->write(folder_ / "reference");
-      throw NotConverged("The reference did not converge: " + reference_->reason() + ".");
+      }
+      if (reference_index_ != one.reference)
+        reference_ = build(run, "");
+      console_.say("Reference: " + parameters_.study.reference);
+      reference_index_     = one.reference;
+      const bool is_solved = reference_->solve(folder);
+      run.row              = reference_->row();
+      run.linear_residuals = reference_->linear_residuals();
+      run.row.set("fingerprint", run.fingerprint);
+      reference_->write(folder);
+      if (!is_solved)
+      {
+        run.row.set("failure", reference_->reason());
+        record_.remarks.push_back("The reference did not converge: " + reference_->reason() + ".");
+        console_.warn(record_.remarks.back() + " Its cases get no errors.");
+        reference_.reset();
+      }
+      time_left_.add(run.work, run.row.number("total_s"));
+      keep(run, folder, record_);
     }
 
-    bool Study::solve_case(const unsigned int i, Simulation &simulation)
+    void Study::solve_case(Case &one, const std::string &what)
     {
-      const std::filesystem::path folder = cases_.size() == 1 ? folder_ : folder_ / cases_[i].name;
-      const bool is_solved               = simulation.solve(folder);
+      const auto simulation = build(one, what);
+      begin();
+      const std::filesystem::path folder = folder_of(one);
+      const bool is_solved               = simulation->solve(folder);
+      ResultsRow row                     = simulation->row();
+      if (is_solved && reference_)
+        add_errors(*simulation, row);
+      for (const auto &[name, label] : one.labels)
+        row.set(name, label);
       if (!is_solved)
-        console_.warn("Not converged: " + simulation.reason() + ".");
-      ResultsRow row = simulation.row();
-      if (reference_)
-        add_errors(simulation, row);
-      on_root(MPI_COMM_WORLD, [&] { table_->add(row); });
-      record_.linear_residuals.emplace_back(cases_[i].name, simulation.linear_residuals());
-      simulation.write(folder);
-      return is_solved;
+      {
+        console_.warn("Not converged: " + simulation->reason() + ".");
+        row.set("failure", simulation->reason());
+      }
+      row.set("fingerprint", one.fingerprint);
+      one.row              = row;
+      one.linear_residuals = simulation->linear_residuals();
+      time_left_.add(one.work, row.number("total_s"));
+      write_table();
+      simulation->write(folder);
+      if (folder == folder_)
+        return;
+      keep(one, folder, record_);
+      write_record("running", "");
+    }
+
+    void Study::fail(Case &one, const std::string &reason)
+    {
+      console_.warn("Failed: " + reason);
+      one.row = {}; // without a fingerprint, so that it is tried again
+      one.row.set("case", one.name);
+      one.row.set("method", one.parameters.discretization.method);
+      one.row.set("degree", one.parameters.discretization.degree);
+      one.row.set("converged", false);
+      for (const auto &[name, label] : one.labels)
+        one.row.set(name, label);
+      one.row.set("failure", reason);
+      write_table();
     }
 
     void Study::add_errors(const Simulation &simulation, ResultsRow &row)
@@ -348,25 +463,22 @@ namespace softcell
         console_.warn(text.str());
         record_.remarks.push_back(text.str());
       }
-
-      ResultsRow &last =
-        last_of_series_[row.get("method") + row.get("degree") + '/' + row.get("cut_levels")];
-      const double refinement = last.number("cell_size") / row.number("cell_size");
-      if (refinement > 1)
-        row.set("observed_rate", std::log(last.number("relative_l2_error") / error.relative_l2) /
-                                   std::log(refinement));
-      last = row;
     }
 
-    void Study::say_what_is_left(const unsigned int n_done) const
+    void Study::say_what_is_left()
     {
-      if (n_done == cases_.size())
-        return;
-      std::ostringstream text;
-      text.precision(0);
-      text << std::fixed << "  about " << timers_.total() / n_done * (cases_.size() - n_done)
-           << " s left if the other cases take as long";
-      console_.say(text.str());
+      double seconds     = 0;
+      unsigned int n     = 0;
+      const auto add_run = [&](const StudyRun &run) {
+        if (run.is_solved())
+          return;
+        ++n;
+        seconds += time_left_.guess(run.work);
+      };
+      std::for_each(cases_.begin(), cases_.end(), add_run);
+      std::for_each(references_.begin(), references_.end(), add_run);
+      if (n > 0 && std::isfinite(seconds))
+        console_.say("  " + std::to_string(n) + " runs left, about " + duration(seconds));
     }
   } // namespace
 
@@ -377,6 +489,8 @@ namespace softcell
                 Console &console)
   {
     Study study(file, settings, command_line, console);
+    if (!is_check)
+      study.resume();
     if (is_check || !study.has_one_run())
       study.check();
     return is_check ? 0 : study.run();

@@ -26,12 +26,11 @@ namespace
 
 TEST(Results, StandardColumnsComeFirst)
 {
-  ResultsTable table(results_file());
   ResultsRow row;
   row.set("tip_uz", 0.5);
   row.set("dofs", 300u);
   row.set("case", "liver");
-  table.add(row);
+  write_results(results_file(), {row});
   std::ifstream in(results_file());
   std::string header, values;
   std::getline(in, header);
@@ -47,7 +46,6 @@ TEST(Results, StandardColumnsComeFirst)
 
 TEST(Results, QuotesTextAndKeepsEveryDigit)
 {
-  ResultsTable table(results_file());
   ResultsRow first, second;
   first.set("case", "a \"quoted\", long\nname");
   first.set("volume", 0.1 + 0.2);
@@ -56,8 +54,7 @@ TEST(Results, QuotesTextAndKeepsEveryDigit)
   EXPECT_EQ(first.number("volume"), 0.1 + 0.2);
   EXPECT_TRUE(std::isnan(first.number("relative_l2_error")));
   EXPECT_EQ(second.number("relative_l2_error"), std::nextafter(1e-7, 1));
-  table.add(first);
-  table.add(second);
+  write_results(results_file(), {first, second});
 
   std::stringstream text;
   text << std::ifstream(results_file()).rdbuf();
@@ -69,5 +66,22 @@ TEST(Results, QuotesTextAndKeepsEveryDigit)
 
 TEST(Results, NamesAFolderThatIsNotThere)
 {
-  EXPECT_THROW(ResultsTable("no/such/folder/results.csv").add({}), BadInput);
+  EXPECT_THROW(write_results("no/such/folder/results.csv", {}), BadInput);
+}
+
+TEST(Results, AreReadAsTheyWereWritten)
+{
+  ResultsRow first, second;
+  first.set("case", "a \"quoted\", long\nname");
+  first.set("volume", 0.1 + 0.2);
+  second.set("case", "\"");
+  second.set("tip_ux", -1.5);
+  write_results(results_file(), {first, second});
+
+  const std::vector<ResultsRow> rows = read_results(results_file());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].values(), first.values());
+  EXPECT_EQ(rows[1].values(), second.values());
+  std::remove(results_file().c_str());
+  EXPECT_TRUE(read_results(results_file()).empty());
 }

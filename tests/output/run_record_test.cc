@@ -6,8 +6,11 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
+#include <deal.II/base/mpi.h>
+
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <sstream>
 
 using namespace softcell;
@@ -39,4 +42,20 @@ TEST(RunRecord, IsJsonAndKeepsEveryCharacter)
   EXPECT_EQ(tree.get_child("remarks").back().second.data(), "two, three");
   EXPECT_EQ(tree.get_child("libraries").find("deal.II")->second.data().substr(0, 2), "9.");
   EXPECT_FALSE(tree.get<std::string>("host").empty());
+}
+
+TEST(RunRecord, GivesBackTheResidualsOfItsFirstCase)
+{
+  const std::string file =
+    "run_record_test_" + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) +
+    ".json";
+  RunRecord record;
+  record.linear_residuals = {{"weighted_cell_0.5", {1, 0.25, 1e-9}}, {"b", {2}}};
+  write_run_record(file, record);
+  EXPECT_EQ(read_linear_residuals(file), (std::vector<double>{1, 0.25, 1e-9}));
+  record.linear_residuals.clear();
+  write_run_record(file, record);
+  EXPECT_TRUE(read_linear_residuals(file).empty());
+  std::remove(file.c_str());
+  EXPECT_TRUE(read_linear_residuals(file).empty());
 }

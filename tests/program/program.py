@@ -53,6 +53,9 @@ subsection Loads
   set base = clamp
 end
 """
+# Of a row of results.csv, what need not be the same on any number of ranks.
+NOT_COMPARED = {"newton_iterations", "linear_iterations", "setup_s", "assembly_s", "solve_s", "total_s",
+                "peak_rss_mib"}
 failures = []
 executable = None  # set by who runs the tests
 
@@ -74,3 +77,22 @@ def softcell(*arguments, ranks=1, folder="."):
 def rows(file):
     with open(file, newline="") as stream:
         return list(csv.DictReader(stream))
+
+
+def same_row(one, other, tolerance, what):
+    check(set(one) == set(other), f"{what}: other columns: {set(one) ^ set(other)}")
+    scales = {}  # of vectors, whose components are as good as the largest one
+    for column, value in one.items():
+        if column[-3:-1] in ("_u", "_f") and value:
+            scales[column[:-1]] = max(abs(float(value)), scales.get(column[:-1], 0))
+    for kind in ("_u", "_f"):  # what is held moves as little as rounding says
+        largest = max((scale for name, scale in scales.items() if name[-2:] == kind), default=0)
+        scales.update({name: max(scale, 1e-4 * largest) for name, scale in scales.items() if name[-2:] == kind})
+    for column in set(one) & set(other) - NOT_COMPARED:
+        a, b = one[column], other[column]
+        try:
+            size = scales.get(column[:-1], max(abs(float(a)), abs(float(b))))
+            same = abs(float(a) - float(b)) <= tolerance * size
+        except ValueError:
+            same = a == b
+        check(same, f"{what}: {column} is {a} and {b}")

@@ -3,7 +3,7 @@
 """Runs the whole program and checks what it prints, returns and writes.
 
 usage: run_program.py SOFTCELL GROUP
-GROUP is one of command_line, bad_input, ranks, checkpoints, methods, studies, organ.
+GROUP is one of command_line, bad_input, ranks, checkpoints, methods, studies, sweeps, resume, organ.
 """
 import json
 import math
@@ -16,12 +16,10 @@ import tempfile
 import time
 
 import program
+import study_tests
 from bad_inputs import BAD_INPUTS, write_files
-from program import BAR, GOOD_SURFACE, ROOT, check, failures, rows, softcell
+from program import BAR, GOOD_SURFACE, ROOT, check, failures, rows, same_row, softcell
 
-# Of a row of results.csv, what need not be the same on any number of ranks.
-NOT_COMPARED = {"newton_iterations", "linear_iterations", "setup_s", "assembly_s", "solve_s", "total_s",
-                "peak_rss_mib"}
 SKIPPED = 77  # exit status
 
 
@@ -100,25 +98,6 @@ def bad_input(folder):
               f"{file} is repaired where it needs it: {status} {out} {error}")
     status, _, error = softcell("base.prm", "--set", "Material/Yung modulus = 1", ranks=3, folder=folder)
     check(status == 1 and error.count("Young modulus") == 1, f"three ranks complain once: {status} {error}")
-
-
-def same_row(one, other, tolerance, what):
-    check(set(one) == set(other), f"{what}: other columns: {set(one) ^ set(other)}")
-    scales = {}  # of vectors, whose components are as good as the largest one
-    for column, value in one.items():
-        if column[-3:-1] in ("_u", "_f") and value:
-            scales[column[:-1]] = max(abs(float(value)), scales.get(column[:-1], 0))
-    for kind in ("_u", "_f"):  # what is held moves as little as rounding says
-        largest = max((scale for name, scale in scales.items() if name[-2:] == kind), default=0)
-        scales.update({name: max(scale, 1e-4 * largest) for name, scale in scales.items() if name[-2:] == kind})
-    for column in set(one) & set(other) - NOT_COMPARED:
-        a, b = one[column], other[column]
-        try:
-            size = scales.get(column[:-1], max(abs(float(a)), abs(float(b))))
-            same = abs(float(a) - float(b)) <= tolerance * size
-        except ValueError:
-            same = a == b
-        check(same, f"{what}: {column} is {a} and {b}")
 
 
 def ranks(folder):
@@ -269,7 +248,8 @@ if len(sys.argv) != 3:
 program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
-     "methods": methods, "studies": studies, "organ": organ}[sys.argv[2]](
+     "methods": methods, "studies": studies, "sweeps": study_tests.sweeps,
+     "resume": study_tests.resume, "organ": organ}[sys.argv[2]](
         pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)

@@ -29,6 +29,9 @@ namespace softcell
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// What `Method` may be.
+  std::vector<std::string> method_names();
+
   /// Does the entry `Cut levels` mean something to this method?
   bool has_cut_levels(const std::string &method);
 

@@ -45,20 +45,17 @@ namespace softcell
     std::vector<std::pair<std::string, std::string>> values_;
   };
 
-  /// The rows of a run. The columns that every run has come first in a fixed order, then all others
-  /// in the order in which rows brought them; where a row has no value the cell is empty.
-  class ResultsTable
-  {
-  public:
-    /// @param file empty: nothing is written, for the ranks that only keep the rows.
-    explicit ResultsTable(std::string file);
+  /// The columns that every row has, in their order, and then those that only some runs bring
+  /// beside the ones named after probes, regions and sweeps.
+  std::vector<std::string> results_columns();
 
-    /// Adds a row and writes the table anew, so that a run that is killed leaves a whole file.
-    /// @throws BadInput if the file cannot be written.
-    void add(ResultsRow row);
+  /// Writes rows as a table: first the columns that every run has, then all others in the order in
+  /// which rows bring them. Where a row has no value the cell is empty. A run that is killed leaves
+  /// a whole file.
+  /// @throws BadInput if the file cannot be written.
+  void write_results(const std::string &file, const std::vector<ResultsRow> &rows);
 
-  private:
-    std::string file_;
-    std::vector<ResultsRow> rows_;
-  };
+  /// Reads what write_results() wrote; rows have no value where a cell is empty. No rows if there
+  /// is no such file.
+  std::vector<ResultsRow> read_results(const std::string &file);
 } // namespace softcell

@@ -28,4 +28,8 @@ namespace softcell
 
   /// Writes the record into the file; call it at the start and again at the end, on rank 0.
   void write_run_record(const std::string &file, const RunRecord &record);
+
+  /// The linear residuals of the first case of a record that was written; none if it cannot be
+  /// read.
+  std::vector<double> read_linear_residuals(const std::string &file);
 } // namespace softcell

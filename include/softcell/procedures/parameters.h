@@ -53,6 +53,7 @@ namespace softcell
   struct StudyParameters
   {
     std::string methods, degrees, cells, cut_levels, reference;
+    bool resume = true; // keep the cases that are in the folder already
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
@@ -77,6 +78,7 @@ namespace softcell
     std::vector<ParameterFile::Entry> probes;
     OutputParameters output;
     StudyParameters study;
+    std::vector<ParameterFile::Entry> sweeps;
 
     std::vector<ParameterFile::Entry> entries; // all of them as they were read, for the record
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One run of a study, and how it is known again in the folder where it was left.
+#pragma once
+
+#include <softcell/output/results.h>
+#include <softcell/output/run_record.h>
+#include <softcell/procedures/parameters.h>
+#include <softcell/studies/time_left.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace softcell
+{
+  /// A case or a reference.
+  struct StudyRun
+  {
+    std::string name;
+    Parameters parameters;
+    std::string fingerprint; // on rank 0
+    ResultsRow row;          // of results.csv, empty until it is solved
+    std::vector<double> linear_residuals;
+    Work work; // once it is built
+
+    bool is_solved() const
+    {
+      return !row.values().empty();
+    }
+  };
+
+  /// The entries of a run that its results depend on: all but those of the study as a whole.
+  std::vector<ParameterFile::Entry> own_entries(const Parameters &parameters);
+
+  /// Gives a run its fingerprint, and the row and residuals that keep() left in the folder if they
+  /// have the same one. Collective.
+  /// @param folder    empty: nothing is looked for.
+  /// @param reference fingerprint of what its errors are measured against.
+  void recall(StudyRun &run,
+              const std::filesystem::path &folder,
+              unsigned int n_ranks,
+              const std::string &reference);
+
+  /// Leaves the row and the record of a run in its folder, as the last that it writes. Collective.
+  /// @param record of the study.
+  /// @throws BadInput if they cannot be written.
+  void keep(const StudyRun &run, const std::filesystem::path &folder, RunRecord record);
+} // namespace softcell
