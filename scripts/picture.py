@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws bodies at rest and deformed, coloured by displacement.
 
-usage: picture.py SURFACE.vtp...     writes SURFACE.png beside each surface; needs a display (or xvfb-run)
+usage: picture.py SURFACE.vtp...     writes SURFACE.png beside each surface
+       picture.py --study DIR        writes tile.png beside the surfaces of a study's cases (12 at most, then the finest
+                                     of each series), all to the same scale, which is DIR/scale.png
+It needs a display (or xvfb-run).
 
 The surface stands at its deformed place and has the point data `displacement`, all in metres.
 """
@@ -16,7 +19,11 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 import numpy as np
 
+from report_study import Study, number
+
 WIDTH, HEIGHT = 1800, 1000
+TILE = 520, 400
+MOST_TILES = 12
 INK = (0.12, 0.12, 0.14)
 
 
@@ -73,13 +80,12 @@ def top_of_scale(largest):
                             if 5 * step * power >= largest * (1 - 1e-9))
 
 
-def text(string, size, x, y, bold=False):
+def text(string, size, x, y):
     actor = vtk.vtkTextActor()
     actor.SetInput(string)
     style = actor.GetTextProperty()
     style.SetFontSize(size)
     style.SetColor(INK)
-    style.SetBold(bold)
     style.SetJustificationToCentered()
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(x, y)
@@ -138,8 +144,8 @@ def lights(renderer):
     kit.AddLightsToRenderer(renderer)
 
 
-def point_camera(renderers, points, displacement):
-    """The same camera for both pictures, so that the body fits at rest and deformed, with room for a title."""
+def point_camera(renderers, points, displacement, aspect, share):
+    """The same camera for all, so that the body fits at rest and deformed into a share of the height."""
     sight, up = view(points, displacement), np.array([0.0, 0.0, 1.0])
     points = np.vstack([points, points + displacement])
     sight /= np.linalg.norm(sight)
@@ -150,8 +156,7 @@ def point_camera(renderers, points, displacement):
     centre = (points.max(0) + points.min(0)) / 2
     centre += right * ((across.max() + across.min()) / 2 - centre @ right)
     centre += up * ((along.max() + along.min()) / 2 - centre @ up)
-    aspect = WIDTH / 2 / (HEIGHT * 0.8)
-    half = 0.5 * max(np.ptp(along) / 0.8, np.ptp(across) / aspect / 0.9)
+    half = 0.5 * max(np.ptp(along) / share, np.ptp(across) / aspect / 0.9)
     distance = 20 * half + np.ptp(points @ sight)
     for renderer in renderers:
         camera = renderer.GetActiveCamera()
@@ -163,7 +168,8 @@ def point_camera(renderers, points, displacement):
         renderer.ResetCameraClippingRange()
 
 
-def colour_bar(table, name):
+def colour_bar(table, name, width):
+    """A horizontal scale in the middle, with its title; the width is a share of its viewport."""
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(f"displacement in {name}\n ")
@@ -172,8 +178,8 @@ def colour_bar(table, name):
     bar.SetOrientationToHorizontal()
     bar.SetTextPositionToSucceedScalarBar()
     bar.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    bar.SetPosition(0.28, 0.06)
-    bar.SetPosition2(0.44, 0.84)
+    bar.SetPosition(0.5 - width / 2, 0.06)
+    bar.SetPosition2(width, 0.84)
     bar.SetBarRatio(0.2)
     bar.UnconstrainedFontSizeOn()
     bar.SetTextPad(4)
@@ -200,58 +206,111 @@ def load_reached(file):
     return None
 
 
-def draw(file):
-    surface = read(file)
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-    displacement = vtk_to_numpy(surface.GetPointData().GetArray("displacement")).astype(float)
-    magnitude = np.linalg.norm(displacement, axis=1)
-    name, factor = unit(magnitude.max() if magnitude.max() > 1e-12 else 1.0)
-    magnitude *= factor
-    table = colours(top_of_scale(max(magnitude.max(), 1e-6)))
-
-    reached = load_reached(file)
-    title = "deformed" if reached is None else f"not converged: at {reached:.3g} of the load"
-    rest = moved(surface, points - displacement, magnitude)
-    deformed = moved(surface, points, magnitude)
+def new_window(size):
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(8)
-    window.SetSize(WIDTH, HEIGHT)
+    window.SetSize(*size)
     window.SetNumberOfLayers(2)
-    renderers = []
-    # The shadow lies a layer deeper, so that it never covers the body.
-    for layer, left, actors in ((0, 0.5, [outline(rest)]),
-                                (0, 0.0, [body(rest), text("at rest", 34, 0.5, 0.93)]),
-                                (1, 0.5, [body(deformed, table), text(title, 34, 0.5, 0.93)])):
-        renderer = vtk.vtkRenderer()
-        renderer.SetLayer(layer)
-        renderer.SetViewport(left, 0.2, left + 0.5, 1)
-        renderer.SetBackground(1, 1, 1)
-        lights(renderer)
-        for actor in actors:
-            renderer.AddActor(actor)
-        window.AddRenderer(renderer)
-        renderers.append(renderer)
+    return window
 
-    foot = vtk.vtkRenderer()
-    foot.SetViewport(0, 0, 1, 0.2)
-    foot.SetBackground(1, 1, 1)
-    foot.AddActor2D(colour_bar(table, name))
-    window.AddRenderer(foot)
-    point_camera(renderers, points - displacement, displacement)
 
+def add_renderer(window, viewport, actors, layer=0):
+    renderer = vtk.vtkRenderer()
+    renderer.SetLayer(layer)
+    renderer.SetViewport(*viewport)
+    renderer.SetBackground(1, 1, 1)
+    lights(renderer)
+    for actor in actors:
+        renderer.AddActor(actor)
+    window.AddRenderer(renderer)
+    return renderer
+
+
+def write(window, target):
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     grab.Update()
     writer = vtk.vtkPNGWriter()
-    target = os.path.splitext(file)[0] + ".png"
-    writer.SetFileName(target)
+    writer.SetFileName(str(target))
     writer.SetInputConnection(grab.GetOutputPort())
     writer.Write()
     print(target)
 
 
-for argument in sys.argv[1:] or sys.exit(__doc__):
-    draw(argument)
+class Deformed:
+    """A surface at its deformed place, its displacement, and where its points were at rest."""
+
+    def __init__(self, file):
+        self.surface = read(str(file))
+        self.points = vtk_to_numpy(self.surface.GetPoints().GetData()).astype(float)
+        self.displacement = vtk_to_numpy(self.surface.GetPointData().GetArray("displacement")).astype(float)
+        self.magnitude = np.linalg.norm(self.displacement, axis=1)
+        self.at_rest = self.points - self.displacement
+
+    def largest(self):
+        return max(self.magnitude.max(), 1e-12)
+
+
+def draw(file):
+    """The body at rest and deformed, side by side over the scale of colours."""
+    one = Deformed(file)
+    name, factor = unit(one.largest())
+    table = colours(top_of_scale(max(factor * one.largest(), 1e-6)))
+    reached = load_reached(file)
+    title = "deformed" if reached is None else f"not converged: at {reached:.3g} of the load"
+    rest = moved(one.surface, one.at_rest, factor * one.magnitude)
+    deformed = moved(one.surface, one.points, factor * one.magnitude)
+    window = new_window((WIDTH, HEIGHT))
+    # The shadow lies a layer deeper, so that it never covers the body.
+    renderers = [add_renderer(window, (left, 0.2, left + 0.5, 1), actors, layer)
+                 for layer, left, actors in ((0, 0.5, [outline(rest)]),
+                                             (0, 0.0, [body(rest), text("at rest", 34, 0.5, 0.93)]),
+                                             (1, 0.5, [body(deformed, table), text(title, 34, 0.5, 0.93)]))]
+    add_renderer(window, (0, 0, 1, 0.2), [colour_bar(table, name, 0.44)])
+    point_camera(renderers, one.at_rest, one.displacement, WIDTH / 2 / (HEIGHT * 0.8), 0.8)
+    write(window, os.path.splitext(file)[0] + ".png")
+
+
+def tiles(folder):
+    """The cases to draw: all, or the finest of each series, or some of these."""
+    study = Study(folder)
+    rows = study.rows
+    if len(rows) > MOST_TILES:
+        rows = [max(curve, key=lambda row: number(row, "dofs") or 0)
+                for curve in study.curves(study.finest_levels()[0], study.tells)]
+    rows = rows[::-(-len(rows) // MOST_TILES)]
+    return [file for row in rows for file in [folder / row["case"] / "surface.vtp"] if file.exists()]
+
+
+def draw_study(folder):
+    """A tile for each case with the body deformed, the same camera and scale for all."""
+    for old in folder.glob("*/tile.png"):
+        old.unlink()
+    all_bodies = {file: Deformed(file) for file in tiles(folder)}
+    if not all_bodies:
+        return
+    largest = max(one.largest() for one in all_bodies.values())
+    name, factor = unit(largest)
+    table = colours(top_of_scale(factor * largest))
+    at_rest = np.vstack([one.at_rest for one in all_bodies.values()])
+    displacement = np.vstack([one.displacement for one in all_bodies.values()])
+    for file, one in all_bodies.items():
+        window = new_window(TILE)
+        renderers = [add_renderer(window, (0, 0, 1, 1), [actor], layer) for layer, actor in (
+            (0, outline(moved(one.surface, one.at_rest, one.magnitude))),
+            (1, body(moved(one.surface, one.points, factor * one.magnitude), table)))]
+        point_camera(renderers, at_rest, displacement, TILE[0] / TILE[1], 0.94)
+        write(window, file.parent / "tile.png")
+    window = new_window((960, 170))
+    add_renderer(window, (0, 0, 1, 1), [colour_bar(table, name, 0.92)])
+    write(window, folder / "scale.png")
+
+
+if len(sys.argv) == 3 and sys.argv[1] == "--study":
+    draw_study(pathlib.Path(sys.argv[2]))
+else:
+    for argument in sys.argv[1:] or sys.exit(__doc__):
+        draw(argument)

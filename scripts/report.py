@@ -1,159 +1,185 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writes DIR/report.html from DIR/results.csv and the pictures beside it; the page needs nothing else.
+"""Writes DIR/report.html from what a study left in DIR: tables, plots and pictures on a page that needs nothing else.
 
-usage: report.py DIR
+usage: report.py DIR [FILE.prm]     the comment on top of the parameter file becomes the page's title and first words
 """
 import base64
-import csv
 import html
-import io
-import json
 import pathlib
 import sys
 
-import matplotlib
+import report_plots as plots
+from report_study import Study, has_failed, is_number, number, shown
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-# Columns of a plot: file column and label of each axis. A plot is left out where a column has no values.
-PLOTS = [
-    ("cells", "cells", "relative_l2_error", "relative error in L2"),
-    ("dofs", "unknowns", "relative_l2_error", "relative error in L2"),
-    ("total_s", "time in s", "relative_l2_error", "relative error in L2"),
-    ("dofs", "unknowns", "relative_h1_error", "relative error in H1"),
-    ("cut_levels", "cut levels", "assembly_s", "one tangent assembly in s"),
-    ("dofs", "unknowns", "assembly_s", "one tangent assembly in s"),
-    ("dofs", "unknowns", "total_s", "time in s"),
-]
-STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem;
-  color: #1c1e21; } h1, h2 { font-weight: 600; } .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
-th, td { padding: .25rem .6rem; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
-th { background: #f5f6f7; } td.text { text-align: left; } .failed { color: #b00020; }
-figure { display: inline-block; margin: 0 1rem 1rem 0; max-width: 34rem; vertical-align: top; }
-figure.picture { max-width: 100%; } img, svg { max-width: 100%; height: auto; } figcaption { color: #555; }"""
+MOST_ROWS = 12  # of the first table
+STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1.5rem;
+  color: #1c1e21; } h1 { font-size: 1.7rem; line-height: 1.25; } h2 { margin-top: 2.2rem; font-size: 1.25rem; }
+.wide { overflow-x: auto; } .small, figcaption, summary { font-size: 14px; color: #444; }
+table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; margin: .5rem 0;
+  border-top: 1.5px solid #333; border-bottom: 1.5px solid #333; }
+th, td { padding: .18rem .45rem; text-align: right; white-space: nowrap; }
+th { border-bottom: 1px solid #333; font-weight: 600; vertical-align: bottom; } td.text, th.text { text-align: left; }
+tr.failed td { color: #a4161a; } details { margin: .7rem 0; } summary { cursor: pointer; }
+.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(31rem, 1fr)); gap: 1.2rem 1.5rem; }
+.tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(15.5rem, 1fr)); gap: .8rem; }
+figure { margin: 0; } figure.broad, .figures > p { grid-column: 1 / -1; }
+img, svg { max-width: 100%; height: auto; } .tiles figcaption { line-height: 1.3; }
+.scale { display: block; margin: 0 auto .5rem; width: 30rem; }"""
 
 
-def number(row, column):
-    """The value as a number, or None."""
-    try:
-        return float(row.get(column) or "")
-    except ValueError:
-        return None
-
-
-def shown(text):
-    """Numbers with five digits, all else as it is; whether it is a number."""
-    try:
-        value = float(text)
-    except ValueError:
-        return html.escape(text), False
-    return (text if value.is_integer() and abs(value) < 1e15 and "e" not in text else f"{value:.5g}"), True
-
-
-def series(rows, x, y):
-    """Points of converged cases by method, degree and, unless they are the abscissa, cut levels."""
-    curves = {}
+def table(rows, columns, heads=None):
+    """An HTML table; columns without values are left out."""
+    columns = [name for name in columns if any(row.get(name) for row in rows)]
+    is_text = {c: not all(is_number(row.get(c) or "0") for row in rows) for c in columns}
+    head = "".join(f"<th{' class=text' if is_text[c] else ''}>{(heads or {}).get(c, html.escape(c))}</th>" for c in columns)
+    lines = [f"<div class=wide><table><tr>{head}</tr>"]
     for row in rows:
-        point = number(row, x), number(row, y)
-        if None in point or row.get("converged") == "false":
-            continue
-        name = row.get("method") or row.get("case") or "all"
-        for column, text in (("degree", "degree"), ("cut_levels", "levels")):
-            if column != x and len({r.get(column) for r in rows}) > 1 and row.get(column):
-                name += f", {text} {row[column]}"
-        if x == "cut_levels":
-            name += f", {row.get('cells')} cells" if len({r.get("cells") for r in rows}) > 1 else ""
-        curves.setdefault(name, []).append(point)
-    return {name: sorted(points) for name, points in curves.items()}
-
-
-def plot(rows, x, x_label, y, y_label):
-    """An SVG of y against x, or nothing where there are no two points to draw."""
-    curves = series(rows, x, y)
-    if len({point[0] for points in curves.values() for point in points}) < 2:
-        return ""
-    figure, axes = plt.subplots(figsize=(6.4, 5.0), layout="constrained")
-    methods, drawn = [], {}
-    for name, points in curves.items():
-        method = name.split(",")[0]
-        methods += [] if method in methods else [method]
-        n = drawn[method] = drawn.get(method, -1) + 1  # a colour for each method, a mark for each of its curves
-        axes.plot(*zip(*points), color=f"C{methods.index(method) % 10}", marker="os^Dv*Xp"[n % 8],
-                  linestyle=("-", "--", "-.", ":")[n % 4], markersize=5, linewidth=1.3, label=name)
-    values = [value for points in curves.values() for point in points for value in point[1:]]
-    if x == "cut_levels":
-        axes.xaxis.get_major_locator().set_params(integer=True)
-    elif all(p[0] > 0 for points in curves.values() for p in points):
-        axes.set_xscale("log")
-    if all(value > 0 for value in values):
-        axes.set_yscale("log")
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
-    axes.grid(True, which="both", linewidth=0.3)
-    axes.legend(fontsize=7.5, frameon=False, loc="upper center", bbox_to_anchor=(0.45, -0.12), ncol=3)
-    text = io.StringIO()
-    figure.savefig(text, format="svg")
-    plt.close(figure)
-    svg = text.getvalue()
-    return f"<figure>{svg[svg.index('<svg'):]}<figcaption>{y_label} against {x_label}</figcaption></figure>"
-
-
-def table(rows):
-    columns = [name for name in rows[0] if any(row.get(name) for row in rows)]
-    lines = ["<div class=wide><table><tr>" + "".join(f"<th>{html.escape(c)}</th>" for c in columns) + "</tr>"]
-    for row in rows:
-        cells = [shown(row.get(column) or "") for column in columns]
-        mark = " class=failed" if row.get("converged") == "false" else ""
-        lines.append(f"<tr{mark}>" + "".join(
-            f"<td>{text}</td>" if is_number else f"<td class=text>{text}</td>" for text, is_number in cells) + "</tr>")
+        cells = "".join(f"<td{' class=text' if is_text[c] else ''}>{shown(row.get(c) or '', 4 if heads else 6)[0]}</td>"
+                        for c in columns)
+        lines.append(f"<tr{' class=failed' if has_failed(row) else ''}>{cells}</tr>")
     return "\n".join(lines) + "</table></div>"
 
 
-def pictures(folder):
-    for file in sorted(folder.glob("**/*.png")):
-        data = base64.b64encode(file.read_bytes()).decode()
-        name = html.escape(str(file.relative_to(folder)))
-        yield f'<figure class=picture><img alt="{name}" src="data:image/png;base64,{data}">' \
-              f"<figcaption>{name}</figcaption></figure>"
+HEADS = {"method": "method", "degree": "degree", "cut_levels": "cut<br>levels", "h": "h, {unit}", "dofs": "unknowns",
+         "load_steps": "load<br>steps", "newton_iterations": "Newton<br>iterations",
+         "linear_iterations": "linear<br>iterations", "assembly_s": "assembly,<br>s", "total_s": "total,<br>s",
+         "l2": "error in<br>L2, %", "observed_rate": "order", "h1": "error in<br>H1, %", "observed_rate_h1": "order",
+         "failure": "did not converge"}
 
 
-def record(folder):
-    """What was run, from run.json where it is there."""
-    try:
-        run = json.loads((folder / "run.json").read_text())
-    except (OSError, ValueError):
+def summary(study):
+    """The columns that matter, of all cases or of the finest of each series."""
+    rows, note = study.rows, ""
+    if len(rows) > MOST_ROWS:
+        finest = [max(curve, key=lambda row: number(row, "dofs") or 0)
+                  for curve in study.curves(study.finest_levels()[0], study.tells)]
+        rows, note = finest, f"<p class=small>The finest case of each series; all {len(study.rows)} are below.</p>"
+    rows = [dict(row) for row in rows]
+    for row in rows:
+        if has_failed(row):
+            reached = number(row, "load_factor")
+            row["failure"] = row.get("failure", "")[:40] if reached is None else f"{reached:.3g} of the load reached"
+        row["h"] = f"{(number(row, 'cell_size') or 0) * study.factor:.4g}"
+        for short, column in (("l2", "relative_l2_error"), ("h1", "relative_h1_error")):
+            row[short] = str(100 * number(row, column)) if number(row, column) is not None else ""
+    columns = list(HEADS)
+    columns[1:1] = study.sweeps
+    heads = {c: HEADS.get(c, html.escape(c)).format(unit=study.unit) for c in columns}
+    return table(rows, columns, heads) + note
+
+
+def fastest(study):
+    """Which case reaches an error first."""
+    solved = [(number(row, "total_s"), number(row, "relative_l2_error"), row)
+              for row in study.rows if not has_failed(row)]
+    solved = [case for case in solved if case[0] is not None and case[1] is not None]
+    rows = []
+    for bound in (0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001) if not study.sweeps else ():
+        enough = [case for case in solved if case[1] <= bound]
+        if enough and len(enough) < len(solved):
+            _, _, row = min(enough, key=lambda case: case[0])
+            if rows and rows[-1]["case"] == row["case"]:
+                rows.pop()
+            rows.append({"bound": f"{100 * bound:g} %", "case": row["case"], "name": study.name(row, study.tells),
+                         "dofs": row["dofs"], "total_s": row["total_s"]})
+    heads = {"bound": "error in L2 below", "name": "fastest case", "dofs": "unknowns", "total_s": "total, s"}
+    return "<h2>Fastest way to an error</h2>" + table(rows, list(heads), heads) if rows else ""
+
+
+def embedded(file):
+    return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
+
+
+def pictures(study):
+    """A tile for each case that picture.py drew, with the scale that all have in common."""
+    tiles = []
+    for row in study.rows:
+        file = study.folder / row["case"] / "tile.png"
+        if file.exists():
+            name = html.escape(study.name(row, [*study.tells, "cell_size"]))
+            reached = number(row, "load_factor")
+            fate = f" <b>Not converged: at {reached:.3g} of the load.</b>" if has_failed(row) else ""
+            tiles.append(f'<figure><img alt="{name}" src="{embedded(file)}">'
+                         f"<figcaption>{name}.{fate}</figcaption></figure>")
+    if not tiles:
         return ""
-    return "<p>" + html.escape(
-        f"softcell {run.get('version')} (commit {run.get('commit', 'unknown')[:12]}), "
-        f"{run.get('ranks')} rank(s) on {run.get('host')}, {run.get('written')}: ") \
-        + f"<code>{html.escape(run.get('command_line', ''))}</code></p>"
+    scale = study.folder / "scale.png"
+    bar = f'<img class=scale alt="scale of colours" src="{embedded(scale)}">' if scale.exists() else ""
+    words = "Grey: the body at rest. All pictures have the same scale."
+    if len(tiles) < len(study.rows):
+        words += f" Drawn are {len(tiles)} of {len(study.rows)} cases, the finest of each series first."
+    return f"<h2>Deformed bodies</h2><p class=small>{words}</p>{bar}<div class=tiles>{''.join(tiles)}</div>"
 
 
-def main(folder):
-    with open(folder / "results.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    if not rows:
-        sys.exit(f"{folder / 'results.csv'} has no rows.")
-    title = html.escape(folder.resolve().name)
-    plots = "".join(plot(rows, *entry) for entry in PLOTS)
-    images = "".join(pictures(folder))
+def title_and_words(folder, parameter_file):
+    """The comment on top of a parameter file: its first sentence, and the rest as paragraphs."""
+    lines = []
+    for line in pathlib.Path(parameter_file).read_text().splitlines() if parameter_file else []:
+        if not line.startswith("#"):
+            break
+        lines.append(line.lstrip("# ").rstrip())
+    paragraphs = [" ".join(part.split("\n")).strip() for part in "\n".join(lines).split("\n\n")]
+    title = paragraphs[0].rstrip(".") or folder.resolve().name
+    return html.escape(title), "".join(f"<p>{html.escape(text)}</p>" for text in paragraphs[1:] if text)
+
+
+def description(study):
+    """What was run, by what, where, with which parameters."""
+    run = study.run
+    facts = [("cases", f"{len(study.rows)}" + (f", of which {sum(map(has_failed, study.rows))} did not converge"
+                                               if any(map(has_failed, study.rows)) else ""))]
+    if run.get("status") == "running":
+        facts.append(("status", "the study was not finished"))
+    for row in study.references():
+        fate = ", not converged" if has_failed(row) else ""
+        facts.append((row["case"].replace("_", " "), f"{row['method']}, degree {row['degree']}, "
+                      f"{shown(row['dofs'])[0]} unknowns, {shown(row['total_s'], 3)[0]} s{fate}"))
+    constant = [HEADS[c].replace("<br>", " ") + " " + study.rows[0][c] for c in ("method", "degree", "cut_levels")
+                if c not in study.tells and study.rows[0].get(c)]
+    facts += [("all cases", ", ".join(constant))] if constant else []
+    if run:
+        facts += [("program", f"softcell {run.get('version')}, commit {run.get('commit', 'unknown')}"),
+                  ("run", f"{run.get('written')} on {run.get('ranks')} rank(s) of {run.get('host')}"),
+                  ("command", run.get("command_line", ""))]
+    lines = "".join(f"<tr><td class=text>{html.escape(name)}</td><td class=text>{html.escape(fact)}</td></tr>"
+                    for name, fact in facts)
+    parameters = "\n".join(f"{name} = {value}" for name, value in run.get("parameters", {}).items())
+    remarks = "".join(f"<p>{html.escape(text)}</p>" for text in run.get("remarks", []))
+    libraries = "\n".join(f"{name} {version}" for name, version in run.get("libraries", {}).items())
+    folded = [("Parameters", f"<pre>{html.escape(parameters)}</pre>"),
+              ("Libraries", f"<pre>{html.escape(libraries)}</pre>"), ("Remarks", remarks)]
+    return f"<div class=wide><table class=facts>{lines}</table></div>" + "".join(
+        f"<details class=small><summary>{head}</summary>{body}</details>" for head, body in folded if body and run)
+
+
+def main(folder, parameter_file=None):
+    study = Study(folder)
+    title, words = title_and_words(folder, parameter_file)
+    sections = [("Errors", [plots.error_plots]), ("Cut levels", [plots.level_plots]), ("Time", [plots.cost_plots]),
+                ("Load steps and iterations", [plots.count_plots, plots.history_plots]),
+                ("Probes", [plots.probe_plots])]
+    body = ""
+    for head, makers in sections:
+        figures = "".join(figure for make in makers for figure in make(study))
+        body += f"<h2>{head}</h2><div class=figures>{figures}</div>" if figures else ""
     page = f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head><body>
 <h1>{title}</h1>
-{record(folder)}
+{words}
+{description(study)}
 <h2>Results</h2>
-{table(rows)}
-{"<h2>Plots</h2>" + plots if plots else ""}
-{"<h2>Pictures</h2>" + images if images else ""}
+{summary(study)}
+<details><summary>All columns of all cases (results.csv)</summary>{table(study.rows, list(study.rows[0]))}</details>
+{fastest(study)}
+{body}
+{pictures(study)}
 </body></html>
 """
     (folder / "report.html").write_text(page)
     print(folder / "report.html")
 
 
-if len(sys.argv) != 2:
+if len(sys.argv) not in (2, 3):
     sys.exit(__doc__)
-main(pathlib.Path(sys.argv[1]))
+main(pathlib.Path(sys.argv[1]), *sys.argv[2:])

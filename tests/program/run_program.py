@@ -3,7 +3,7 @@
 """Runs the whole program and checks what it prints, returns and writes.
 
 usage: run_program.py SOFTCELL GROUP
-GROUP is one of command_line, bad_input, ranks, checkpoints, methods, studies, sweeps, resume, organ.
+GROUP is one of command_line, bad_input, ranks, checkpoints, methods, studies, sweeps, resume, report, organ.
 """
 import json
 import math
@@ -16,6 +16,7 @@ import tempfile
 import time
 
 import program
+import report_test
 import study_tests
 from bad_inputs import BAD_INPUTS, write_files
 from program import BAR, GOOD_SURFACE, ROOT, check, failures, rows, same_row, softcell
@@ -247,9 +248,9 @@ if len(sys.argv) != 3:
     sys.exit(__doc__)
 program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
-    {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
-     "methods": methods, "studies": studies, "sweeps": study_tests.sweeps,
-     "resume": study_tests.resume, "organ": organ}[sys.argv[2]](
-        pathlib.Path(temporary))
+    groups = {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
+              "methods": methods, "studies": studies, "sweeps": study_tests.sweeps, "resume": study_tests.resume,
+              "report": report_test.report, "organ": organ}
+    groups[sys.argv[2]](pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)

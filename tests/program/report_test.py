@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The report of a study: a page that is whole, with labelled plots, and the pictures that belong to it."""
+import csv
+import html.parser
+import json
+import os
+import re
+import shutil
+import subprocess
+import xml.etree.ElementTree
+
+from program import BAR, ROOT, check, rows, softcell
+
+VOID = {"meta", "img", "br"}
+
+
+class Balance(html.parser.HTMLParser):
+    """Tags that are open, and those that were closed out of turn."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.wrong = [], []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+def write_study(folder):
+    """Two methods and sizes, three levels and tissues; errors fall like h^2, and one case failed."""
+    table, residuals = [], {}
+    for tissue in ("soft", "stiff & hard", "stiffer"):
+        for k, method in enumerate(("finite cell", "weighted cell")):
+            for n in (4, 8):
+                for levels in (1, 2, 3):
+                    name = f"{method}_n{n}_l{levels}_{tissue}".replace(" ", "_")
+                    h = 0.1 / n
+                    table.append({
+                        "case": name, "method": method, "degree": 1, "cut_levels": levels, "dofs": 3 * n**3,
+                        "load_steps": levels, "newton_iterations": 5 + k, "linear_iterations": 40,
+                        "assembly_s": 1e-3 * 8**levels, "total_s": n**3 / 100, "converged": "true", "load_factor": 1,
+                        "cell_size": h, "tip_ux": 0, "tip_uy": 0.05 + h, "tip_uz": 0,
+                        "relative_l2_error": h**2 * (1 + k), "relative_h1_error": h * (1 + k), "tissue": tissue,
+                        "observed_rate": 2 if n == 8 else ""})
+                    residuals[name] = [1, 0.1, 1e-4, 1e-8]
+    table[0].update(converged="false", load_factor=0.5, relative_l2_error="", relative_h1_error="",
+                    failure="no step <gains> anything")
+    folder.mkdir()
+    with open(folder / "results.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, table[0])
+        writer.writeheader()
+        writer.writerows({key: row.get(key, "") for key in table[0]} for row in table)
+    (folder / "run.json").write_text(json.dumps({
+        "version": "0", "commit": "abc", "written": "now", "ranks": 2, "host": "here", "command_line": "softcell < >",
+        "status": "done", "parameters": {"Sweeps/tissue": "soft: | stiff & hard: | stiffer:"},
+        "linear_residuals": residuals}))
+
+
+def check_page(file, title, labels):
+    """The page is well-formed and needs nothing else; each plot has one legend and the labels are there."""
+    page = file.read_text()
+    balance = Balance()
+    balance.feed(page)
+    check(not balance.open and not balance.wrong, f"{file}: tags {balance.open} {balance.wrong}")
+    check(f"<h1>{title}</h1>" in page, f"{file}: no title '{title}'")
+    check(not re.search(r"<script|<link|(src|href)=.https?:", page), f"{file} asks for other files")
+    plots = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+    for plot in plots:
+        xml.etree.ElementTree.fromstring(plot.replace("xlink:", ""))
+        check(plot.count('id="legend_') == 1, f"{file}: a plot with {plot.count('id=legend_')} legends")
+    texts = set(re.findall(r"<!-- (.*?) -->", "".join(plots)))  # matplotlib's, beside the glyphs
+    missing = set(labels) - texts
+    check(not missing, f"{file}: no label {missing} among {texts}")
+    return page, plots
+
+
+def report(folder):
+    """Tables and plots of made up results, and everything of a small study."""
+    write_study(folder / "made_up")
+    (folder / "study.prm").write_text("# Bending & more.\n#\n# What it is about.\n\nsubsection Study\nend\n")
+    command = ["/usr/bin/python3", str(ROOT / "scripts" / "report.py")]
+    run = subprocess.run([*command, "made_up", "study.prm"], cwd=folder, capture_output=True, text=True, check=False)
+    check(run.returncode == 0, f"report.py: {run.stderr}")
+    page, plots = check_page(folder / "made_up" / "report.html", "Bending &amp; more", {
+        "cell size h, cm", "unknowns", "time to the solution, s", "relative error in L2, %", "relative error in H1, %",
+        "cut levels", "one tangent assembly, s", "load steps", "Newton iterations", "iteration", "relative residual",
+        "did not converge", "finite cell, soft, 3 levels (2.00)", "tissue: soft"})
+    check(len(plots) >= 8 and "<p>What it is about.</p>" in page, f"{len(plots)} plots")
+    check("of which 1 did not converge" in page and "<tr class=failed>" in page, "what failed is marked")
+    check("no step &lt;gains&gt; anything" in page and "stiff &amp; hard" in page, "texts are escaped")
+
+    (folder / "study.prm").write_text("# A bar.\n" + BAR + """
+subsection Study
+  set Methods   = weighted cell, tetrahedra
+  set Cells     = 3, 4
+  set Reference = Discretization/Method = tetrahedra; Discretization/Degree = 2; Discretization/Mesh size = 0.05
+end
+""")
+    status, out, error = softcell("study.prm", "--output", "study", folder=folder)
+    check(status == 0, f"study: {out[-2000:]} {error}")
+    draw = ["/usr/bin/python3", str(ROOT / "scripts" / "picture.py"), "--study", "study"]
+    if "DISPLAY" not in os.environ and shutil.which("xvfb-run"):
+        draw = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", *draw]
+    run = subprocess.run(draw, cwd=folder, capture_output=True, text=True, check=False)
+    check(run.returncode == 0, f"picture.py: {run.stderr}")
+    run = subprocess.run([*command, "study", "study.prm"], cwd=folder, capture_output=True, text=True, check=False)
+    check(run.returncode == 0, f"report.py: {run.stderr}")
+    page, _ = check_page(folder / "study" / "report.html", "A bar",
+                         {"cell size h, cm", "reference", "relative residual"})
+    names = [row["case"] for row in rows(folder / "study" / "results.csv")]
+    check(page.count("data:image/png;base64") == 1 + len(names), "a picture for each case, and their scale")
