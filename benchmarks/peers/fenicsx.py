@@ -22,7 +22,7 @@ YOUNG, POISSON, DENSITY = 5000.0, 0.3, 1000.0
 GRAVITY = (0.02, 0.0, -0.1)
 TRACTION = (0.0, -30.0, 0.0)
 PRESSURE = 8.0
-N_STEPS = 5
+N_STEPS = 10
 
 
 def softcell(body, degree, law, load):
