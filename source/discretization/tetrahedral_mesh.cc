@@ -41,12 +41,15 @@ namespace softcell
     using LabelDomain =
       CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Kernel>>;
 
-    double volume_of(const Mesh &mesh, const unsigned int cell)
+    double volume_of(const Mesh &mesh,
+                     const unsigned int a,
+                     const unsigned int b,
+                     const unsigned int c,
+                     const unsigned int d)
     {
-      const unsigned int *v = &mesh.corners[4 * cell];
-      const Point &a        = mesh.vertices[v[0]];
-      return (mesh.vertices[v[3]] - a) *
-             dealii::cross_product_3d(mesh.vertices[v[1]] - a, mesh.vertices[v[2]] - a) / 6;
+      const Point &A = mesh.vertices[a];
+      return (mesh.vertices[d] - A) *
+             dealii::cross_product_3d(mesh.vertices[b] - A, mesh.vertices[c] - A) / 6;
     }
 
     /// Numbers vertices along a Hilbert curve and cells by their vertices, so that what is near in
@@ -83,7 +86,7 @@ namespace softcell
       for (std::size_t cell = 0; cell < cells.size(); ++cell)
       {
         std::copy(cells[cell].begin(), cells[cell].end(), &mesh.corners[4 * cell]);
-        if (volume_of(mesh, cell) < 0)
+        if (volume_of(mesh, cells[cell][0], cells[cell][1], cells[cell][2], cells[cell][3]) < 0)
           std::swap(mesh.corners[4 * cell + 2], mesh.corners[4 * cell + 3]);
       }
       return number;
@@ -296,10 +299,18 @@ namespace softcell
 
   double volume(const Mesh &mesh)
   {
-    Assert(mesh.corners_per_cell == 4, dealii::ExcInternalError());
-    double result = 0;
+    // The corners of a hexahedron around its diagonal from corner 0 to 7.
+    constexpr unsigned int ring[] = {1, 3, 2, 6, 4, 5, 1};
+    double result                 = 0;
     for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell)
-      result += volume_of(mesh, cell);
+    {
+      const unsigned int *v = &mesh.corners[cell * mesh.corners_per_cell];
+      if (mesh.corners_per_cell == 4)
+        result += volume_of(mesh, v[0], v[1], v[2], v[3]);
+      else
+        for (unsigned int k = 0; k < 6; ++k)
+          result += volume_of(mesh, v[0], v[ring[k]], v[ring[k + 1]], v[7]);
+    }
     return result;
   }
 } // namespace softcell

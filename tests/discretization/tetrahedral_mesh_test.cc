@@ -221,6 +221,10 @@ namespace softcell
          "2 4 2 1 1 1 2 3 4\n$EndElements\n";
     std::ofstream(stem + "_1.msh") << "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n"
                                       "$ELM\n1\n1 4 1 1 4 1 2 3 4\n$ENDELM\n";
+    std::ofstream(stem + "_cube.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n"
+         "4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n1\n"
+         "1 5 2 0 0 1 2 3 4 5 6 7 8\n$EndElements\n";
     std::ofstream(stem + "_broken.msh")
       << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1";
     const Mesh mesh = read_gmsh(MPI_COMM_SELF, stem + ".msh", 2);
@@ -231,6 +235,7 @@ namespace softcell
       height += mesh.vertices[v][2];
     EXPECT_EQ(height, 0);
     EXPECT_NEAR(volume(read_gmsh(MPI_COMM_SELF, stem + "_1.msh", 2)), 8. / 6, 1e-14);
+    EXPECT_NEAR(volume(read_gmsh(MPI_COMM_SELF, stem + "_cube.msh", 2)), 8, 1e-14);
 
     EXPECT_NE(
       complaint("nowhere.msh").find("Discretization/Mesh file = nowhere.msh cannot be opened"),

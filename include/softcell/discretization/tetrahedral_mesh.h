@@ -32,6 +32,6 @@ namespace softcell
   /// which share the cuboid's diagonal from its lowest to its highest corner (Kuhn's subdivision).
   Mesh kuhn_box(const Point &size, const std::array<unsigned int, 3> &n);
 
-  /// Volume of a tetrahedral mesh. Units: m^3
+  /// Volume of a mesh; a hexahedron counts as six tetrahedra around a diagonal. Units: m^3
   double volume(const Mesh &mesh);
 } // namespace softcell
