@@ -36,7 +36,10 @@ namespace softcell
                      const CutParameters &cut,
                      const Body &body,
                      MPI_Comm communicator)
-      : body_(body), shapes_(degree), rule_(make_cut_rule(rule, cut, degree, body))
+      : body_(body),
+        alpha_(cut.alpha),
+        shapes_(degree),
+        rule_(make_cut_rule(rule, cut, degree, body))
   {
     const dealii::QGauss<3> gauss(degree + 1);
     gauss_points_  = gauss.get_points();
@@ -109,7 +112,7 @@ namespace softcell
     std::vector<unsigned char> labels = {0};
     for (const Cell &cell : cells_)
     {
-      if (body_.n_labels() > 1 && cell.cut == none)
+      if (body_.n_labels() > 1 && (cell.cut == none || alpha_ > 0)) // a rule has its own
       {
         const Box box = lattice_.box(cell.place);
         labels.clear();
@@ -180,6 +183,29 @@ namespace softcell
     else
     {
       evaluate(i, own_points ? gauss_points_ : storage.points, storage.shapes);
+      patch.shapes = &storage.shapes;
+    }
+    return patch;
+  }
+
+  Patch Immersed::fictitious_patch(const unsigned int i, PatchStorage &storage) const
+  {
+    const Cell &cell   = cells_[i];
+    const double empty = 1 - cell.cut_fraction;
+    Patch patch;
+    if (alpha_ == 0 || empty < 1e-9)
+      return patch;
+    const unsigned int table = binary_logarithm(cell.place.size);
+    storage.weights          = weights_[table];
+    for (double &w : storage.weights)
+      w *= alpha_ * empty;
+    patch.nodes   = nodes(i);
+    patch.weights = {storage.weights.data(), storage.weights.size()};
+    patch.labels  = labels_[i];
+    patch.shapes  = &tables_[table];
+    if (cell.has_hanging())
+    {
+      evaluate(i, gauss_points_, storage.shapes);
       patch.shapes = &storage.shapes;
     }
     return patch;

@@ -26,12 +26,13 @@ namespace softcell
   } // namespace
 
   Model::Model(const Discretization &discretization,
-               std::vector<Material> materials,
+               const std::vector<Material> &materials,
                const Loads &loads,
                const LinearSolverParameters &linear_solver,
                Timers &timers)
       : discretization_(discretization),
-        elasticity_(discretization, std::move(materials)),
+        elasticity_(discretization, materials),
+        stabilization_(discretization, materials),
         loads_(loads),
         tangent_(discretization.partitioner(), couplings(elasticity_, loads)),
         linear_solver_(make_linear_solver(linear_solver, is_symmetric(loads))),
@@ -91,6 +92,7 @@ namespace softcell
     internal = 0;
     external = 0;
     elasticity_.add_residual(u, internal);
+    stabilization_.add_residual(u, internal);
     for (const auto &force : loads_.forces)
       force->add_residual(u, load_factor_, external);
     internal.compress(dealii::VectorOperation::add);
@@ -115,6 +117,7 @@ namespace softcell
       const Timers::Scope scope(timers_, "assembly");
       tangent_.set_zero();
       elasticity_.add_tangent(u, tangent_);
+      stabilization_.add_tangent(tangent_);
       for (const auto &force : loads_.forces)
         force->add_tangent(u, load_factor_, tangent_);
       tangent_.compress();

@@ -264,6 +264,8 @@ namespace softcell
     row.set("cell_size", cell_size());
     if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
       row.set("load_energy", energy);
+    if (const double energy = model_->stabilization().energy(displacement_); energy > 0)
+      row.set("stabilization_energy", energy);
     if (const double condition = model_->condition(); std::isfinite(condition))
       row.set("condition", condition);
 

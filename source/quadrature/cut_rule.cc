@@ -18,9 +18,9 @@ namespace softcell
                       dealii::Patterns::Integer(0, max_levels));
     prm.add_parameter(
       "Alpha", alpha,
-      "Weight in the integrals of the part of a cut cell outside the body, relative "
-      "to the part inside; a small value such as 1e-6 steadies badly cut cells. "
-      "What is outside has mass and volume in this proportion too. Units: 1",
+      "Stiffness of what a cut cell holds beside the body, relative to the body's; a small value "
+      "such as 1e-6 steadies badly cut cells. It follows the linear law with the body's Lame "
+      "parameters, has neither mass nor volume, and may turn inside out. Units: 1",
       dealii::Patterns::Double(0, 0.01));
     prm.add_parameter("Weighted cell spread", spread,
                       "Part of its filled volume that a weighted cell spreads evenly over all of "

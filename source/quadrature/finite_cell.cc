@@ -35,10 +35,8 @@ namespace softcell
                      full_.push_back(code);
                      volume += leaf.volume();
                    }
-                   else if (parameters_.alpha > 0)
-                     outside_.push_back(code);
                  });
-    cells_.push_back({Point(), Direction(), full_.size(), cut_.size(), outside_.size()});
+    cells_.push_back({Point(), Direction(), full_.size(), cut_.size()});
 
     std::vector<unsigned char> labels;
     if (body_.n_labels() > 1)
@@ -71,8 +69,6 @@ namespace softcell
       cut_.push_back(code);
       masks_.insert(masks_.end(), mask.begin(), mask.end());
     }
-    else if (parameters_.alpha > 0)
-      outside_.push_back(code);
   }
 
   void FiniteCell::points(const unsigned int index, CutPoints &result) const
@@ -88,9 +84,7 @@ namespace softcell
     result.weights.clear();
     const double volume = cell.size[0] * cell.size[1] * cell.size[2];
 
-    // factor(i): what the weight of Gauss point i is multiplied by; points where it is 0 are left
-    // out
-    const auto place_leaf = [&](LeafCode code, const auto &factor) {
+    const auto place_leaf = [&](LeafCode code, const auto &is_inside) {
       std::array<unsigned int, 3> index = {{0, 0, 0}};
       unsigned int n                    = 1; // leaves of this size along an edge of the cell
       for (; code > 1; code >>= 3, n *= 2)
@@ -101,19 +95,16 @@ namespace softcell
       const double leaf_volume = volume * h * h * h;
       const Point lower(h * index[0], h * index[1], h * index[2]);
       for (unsigned int i = 0; i < gauss_.size(); ++i)
-        if (const double f = factor(i))
+        if (is_inside(i))
         {
           result.points.push_back(lower + h * gauss_.point(i));
-          result.weights.push_back(f * leaf_volume * gauss_.weight(i));
+          result.weights.push_back(leaf_volume * gauss_.weight(i));
         }
     };
 
     for (std::size_t leaf = cell.full; leaf < next.full; ++leaf)
-      place_leaf(full_[leaf], [](unsigned int) { return 1.; });
+      place_leaf(full_[leaf], [](unsigned int) { return true; });
     for (std::size_t leaf = cell.cut; leaf < next.cut; ++leaf)
-      place_leaf(cut_[leaf],
-                 [&](const unsigned int i) { return is_inside(leaf, i) ? 1. : parameters_.alpha; });
-    for (std::size_t leaf = cell.outside; leaf < next.outside; ++leaf)
-      place_leaf(outside_[leaf], [&](unsigned int) { return parameters_.alpha; });
+      place_leaf(cut_[leaf], [&](const unsigned int i) { return is_inside(leaf, i); });
   }
 } // namespace softcell

@@ -56,8 +56,7 @@ namespace softcell
       for (double &v : fractions)
         v += parameters_.spread * (volume / cell_volume - v);
     for (unsigned int i = 0; i < gauss_.size(); ++i)
-      weights_.push_back((fractions[i] + parameters_.alpha * (1 - fractions[i])) *
-                         gauss_.weight(i) * cell_volume);
+      weights_.push_back(fractions[i] * gauss_.weight(i) * cell_volume);
     labels_.add(labels);
     return volume;
   }

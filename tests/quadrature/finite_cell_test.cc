@@ -86,15 +86,6 @@ namespace softcell
     }
   }
 
-  TEST(FiniteCell, AlphaFillsTheRest)
-  {
-    FiniteCell rule({3, 0.01}, 1, ball);
-    const double volume = rule.add(cell);
-    CutPoints result;
-    rule.points(0, result);
-    EXPECT_NEAR(sum(result.weights), volume + 0.01 * (cell.volume() - volume), 1e-12);
-  }
-
   TEST(FiniteCell, TellsCellsAndLabelsApart)
   {
     const Brick two(Box({Point(0, 0, 0), Point(4, 1, 1)}), 1.25);

@@ -69,15 +69,6 @@ namespace softcell
     }
   }
 
-  TEST(WeightedCell, AlphaFillsTheRest)
-  {
-    WeightedCell rule({3, 0.05}, 1, corner_ball);
-    const double volume = rule.add(unit_cell);
-    CutPoints result;
-    rule.points(0, result);
-    EXPECT_NEAR(total(result), volume + 0.05 * (1 - volume), 1e-13);
-  }
-
   TEST(WeightedCell, TakesTheLabelOfMostOfThePart)
   {
     // of the upper octants' parts [0.5, 1], 3/10 are material 0, and all that is filled

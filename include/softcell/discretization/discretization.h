@@ -98,6 +98,14 @@ namespace softcell
     /// Patch i of this rank. What it looks at stays valid until `storage` is used again.
     virtual Patch patch(unsigned int i, PatchStorage &storage) const = 0;
 
+    /// What the cell of patch i holds beside the body, as a patch with the cell's nodes: filled
+    /// with a soft material, which its weights are scaled for, it steadies cells of which the body
+    /// fills little. No points where there is nothing of that.
+    virtual Patch fictitious_patch(unsigned int /*i*/, PatchStorage & /*storage*/) const
+    {
+      return {};
+    }
+
     /// The nodes of patch i, for those who need no more of it.
     virtual std::vector<unsigned int> patch_nodes(const unsigned int i) const
     {

@@ -51,6 +51,10 @@ namespace softcell
       return cells_.size();
     }
     Patch patch(unsigned int i, PatchStorage &storage) const override;
+    /// Of a cut cell its own Gauss points, whose weights are alpha times that of the whole cell
+    /// times the part that is not filled: so every motion of the cell that strains it meets some
+    /// resistance.
+    Patch fictitious_patch(unsigned int i, PatchStorage &storage) const override;
     std::vector<unsigned int> patch_nodes(unsigned int i) const override
     {
       return {nodes(i).begin(), nodes(i).end()};
@@ -122,6 +126,7 @@ namespace softcell
     std::optional<std::vector<unsigned int>> face_nodes(const Piece &piece) const;
 
     const Body &body_;
+    const double alpha_;
     TensorShapes shapes_;
     std::unique_ptr<CutRule> rule_;
     Lattice lattice_;
@@ -134,7 +139,7 @@ namespace softcell
     std::vector<double> gauss_weights_;
     std::vector<ShapeTable> tables_;           // by binary logarithm of the cell's size
     std::vector<std::vector<double>> weights_; // of full cells, likewise
-    LabelList labels_;                         // of full cells; a placeholder for cut ones
+    LabelList labels_;                         // at the cells' own points
 
     std::unordered_map<std::uint64_t, unsigned int> cell_of_; // by Lattice::key()
     std::unordered_set<std::uint64_t> everyones_cut_cells_;

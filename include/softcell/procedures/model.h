@@ -6,6 +6,7 @@
 #include <softcell/base/console.h>
 #include <softcell/loads/load_list.h>
 #include <softcell/operators/elasticity.h>
+#include <softcell/operators/stabilization.h>
 #include <softcell/solvers/linear_solver.h>
 #include <softcell/solvers/newton.h>
 
@@ -25,7 +26,7 @@ namespace softcell
   public:
     /// @param timers collects `assembly`, `preconditioner` and `linear solver`.
     Model(const Discretization &discretization,
-          std::vector<Material> materials,
+          const std::vector<Material> &materials,
           const Loads &loads,
           const LinearSolverParameters &linear_solver,
           Timers &timers);
@@ -43,6 +44,10 @@ namespace softcell
     const Elasticity &elasticity() const
     {
       return elasticity_;
+    }
+    const Stabilization &stabilization() const
+    {
+      return stabilization_;
     }
 
     /// Potential energy of loads and supports; NaN if one of them has none. Units: J
@@ -69,6 +74,7 @@ namespace softcell
 
     const Discretization &discretization_;
     Elasticity elasticity_;
+    Stabilization stabilization_;
     const Loads &loads_;
     BlockMatrix tangent_;
     std::unique_ptr<LinearSolver> linear_solver_;

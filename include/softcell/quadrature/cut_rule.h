@@ -21,11 +21,12 @@ namespace softcell
     std::vector<unsigned char> labels; // one per point, or a single one for all
   };
 
-  /// What the rules have in common. Declared in the section Discretization.
+  /// How cut cells are integrated, and steadied where they hold little of the body. Declared in the
+  /// section Discretization.
   struct CutParameters
   {
     unsigned int levels = 3;   // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
-    double alpha        = 0;   // stiffness of what is outside relative to inside
+    double alpha        = 0;   // stiffness of what is outside relative to the body's
     double spread       = 0.1; // part of a WeightedCell's volume that steadies it
 
     void add_parameters(dealii::ParameterHandler &prm);
@@ -40,7 +41,7 @@ namespace softcell
   public:
     virtual ~CutRule() = default;
 
-    /// Takes in a cut cell and returns the volume that the rule sees filled (m^3, without alpha).
+    /// Takes in a cut cell and returns the volume that the rule sees filled (m^3).
     /// Cells are numbered in the order in which they are added.
     virtual double add(const Box &cell) = 0;
 
@@ -49,7 +50,7 @@ namespace softcell
     virtual bool has_cell_points() const = 0;
 
     /// The points of cell number `index`. Reuses the memory of `result`. If has_cell_points(), only
-    /// weights and labels are filled. Points outside the body appear only if alpha > 0.
+    /// weights and labels are filled.
     virtual void points(unsigned int index, CutPoints &result) const = 0;
   };
 

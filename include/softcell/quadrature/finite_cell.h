@@ -16,7 +16,7 @@ namespace softcell
   ///
   /// The cell K is halved `levels` >= 1 times towards the boundary of the body B. A leaf inside B
   /// gets the (degree + 1)^3 Gauss rule; of a leaf that is still cut at the last level, the Gauss
-  /// points inside B count. Points outside B have their weight times alpha. Weights are positive.
+  /// points inside B count. Weights are positive.
   /// The volume error of a cell is at most the volume of the cut leaves, O(2^-levels) |K|, and
   /// their number is O(4^levels). Kept are the leaves, four bytes each, and the inside points of a
   /// cut leaf, one bit each. Source: Brunet sec. 4.4, eq. 4.6-4.8.
@@ -38,7 +38,7 @@ namespace softcell
     {
       Point lower;
       Direction size;
-      std::size_t full, cut, outside;
+      std::size_t full, cut;
     };
 
     void add_cut_leaf(const Box &leaf, LeafCode code, double &volume);
@@ -54,7 +54,7 @@ namespace softcell
     const dealii::Quadrature<3> gauss_;
     const std::size_t mask_bytes_;
     std::vector<Cell> cells_; // and one past the end
-    std::vector<LeafCode> full_, cut_, outside_;
+    std::vector<LeafCode> full_, cut_;
     std::vector<unsigned char> masks_; // (n_cut, mask_bytes_)
     LabelList labels_;
   };

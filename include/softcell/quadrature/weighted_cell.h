@@ -15,10 +15,9 @@ namespace softcell
   /// The one-dimensional Gauss weights, laid end to end, part the unit interval; their products
   /// part the cell into one box per point, with the point in it and the point's weight as its
   /// volume: at degree 1, the cell's octants. The fraction is what the octree of `levels` halvings
-  /// counts, so that the volume of a cell is at degree 1 that of FiniteCell. With alpha the factor
-  /// is v + alpha (1 - v), and without it a weight may be 0. A point takes the label of most of
-  /// what fills its part. With 0 levels all that holds some of the body counts as full: the sparse
-  /// grid.
+  /// counts, so that the volume of a cell is at degree 1 that of FiniteCell. A weight may be 0. A
+  /// point takes the label of most of what fills its part. With 0 levels all that holds some of the
+  /// body counts as full: the sparse grid.
   ///
   /// A cell in which less than half of the points have a weight worth the name, a tenth of the
   /// largest, is a mechanism: the nodes that it shares with no other cell have motions without
