@@ -38,6 +38,7 @@ namespace softcell
                      MPI_Comm communicator)
       : body_(body),
         alpha_(cut.alpha),
+        ghost_penalty_(cut.ghost_penalty),
         shapes_(degree),
         rule_(make_cut_rule(rule, cut, degree, body))
   {
@@ -133,6 +134,7 @@ namespace softcell
       if (cell.cut != none)
       {
         ++mine.cut_cells;
+        mine.smallest_cut = std::min(mine.smallest_cut, cell.cut_fraction);
         rule_->points(cell.cut, points);
       }
       mine.integration_points += cell.cut == none ? gauss_weights_.size() : points.weights.size();
@@ -142,6 +144,7 @@ namespace softcell
     all.cells              = dealii::Utilities::MPI::sum(mine.cells, communicator());
     all.cut_cells          = dealii::Utilities::MPI::sum(mine.cut_cells, communicator());
     all.integration_points = dealii::Utilities::MPI::sum(mine.integration_points, communicator());
+    all.smallest_cut       = dealii::Utilities::MPI::min(mine.smallest_cut, communicator());
     all.unknowns           = partitioner_->size();
     all.cell_size          = std::cbrt(lattice_.box({{{0, 0, 0}}, coarsest_size_}).volume());
     return all;

@@ -33,6 +33,13 @@ namespace softcell
       return hanging;
     }
 
+    std::vector<Dof> sorted(std::vector<Dof> dofs)
+    {
+      std::sort(dofs.begin(), dofs.end());
+      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+      return dofs;
+    }
+
     /// The nodes that a cell's own nodes depend on, sorted, and (own, those) how.
     std::pair<std::vector<Dof>, std::vector<double>>
     condense(const std::vector<Dof> &own, const dealii::AffineConstraints<double> &hanging)
@@ -44,8 +51,7 @@ namespace softcell
         else
           for (const auto &[master, factor] : *hanging.get_constraint_entries(dof))
             masters.push_back(master);
-      std::sort(masters.begin(), masters.end());
-      masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+      masters = sorted(std::move(masters));
 
       std::vector<double> factors(own.size() * masters.size(), 0.);
       const auto factor_of = [&](const unsigned int i, const Dof master) -> double & {
@@ -95,14 +101,19 @@ namespace softcell
         cell_dofs.insert(cell_dofs.end(), own.begin(), own.end());
     }
 
+    const std::vector<Dof> used = sorted(cell_dofs);
+    const std::size_t n_cells = cells_.size(), n_condensations = condensations_.size(),
+                      n_cell_dofs = cell_dofs.size();
+    std::vector<Neighbours> neighbours;
+    if (ghost_penalty_ > 0)
+      neighbours = find_neighbours(grid, taken, cell_dofs);
+
     // where they lie, told by their owners in the grid
-    std::vector<Dof> used = cell_dofs;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    dealii::IndexSet used_set(dofs.n_dofs());
-    used_set.add_indices(used.begin(), used.end());
+    const std::vector<Dof> seen = sorted(cell_dofs);
+    dealii::IndexSet seen_set(dofs.n_dofs());
+    seen_set.add_indices(seen.begin(), seen.end());
     const auto dof_partitioner = std::make_shared<const Partitioner>(
-      dofs.locally_owned_dofs(), used_set, grid.triangulation().get_communicator());
+      dofs.locally_owned_dofs(), seen_set, grid.triangulation().get_communicator());
     std::array<Vector, dim> positions;
     for (Vector &component : positions)
       component.reinit(dof_partitioner);
@@ -122,17 +133,24 @@ namespace softcell
     for (Vector &component : positions)
       component.update_ghost_values();
 
-    const std::vector<unsigned int> local = share_nodes(used, dof_partitioner);
-    node_positions_.resize(used.size());
-    for (unsigned int i = 0; i < used.size(); ++i)
+    const std::vector<unsigned int> local = share_nodes(used, seen, dof_partitioner);
+    node_positions_.resize(seen.size());
+    for (unsigned int i = 0; i < seen.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        node_positions_[local[i]][d] = positions[d](used[i]);
+        node_positions_[local[i]][d] = positions[d](seen[i]);
     for (const Dof dof : cell_dofs)
-      nodes_.push_back(local[std::lower_bound(used.begin(), used.end(), dof) - used.begin()]);
+      nodes_.push_back(local[std::lower_bound(seen.begin(), seen.end(), dof) - seen.begin()]);
+
+    for (const Neighbours &pair : neighbours)
+      ghost_faces_.push_back(make_ghost_face(pair));
+    cells_.resize(n_cells); // without those of other ranks
+    nodes_.resize(n_cell_dofs);
+    condensations_.resize(n_condensations);
   }
 
   std::vector<unsigned int>
   Immersed::share_nodes(const std::vector<Dof> &used,
+                        const std::vector<Dof> &seen,
                         const std::shared_ptr<const Partitioner> &dof_partitioner)
   {
     MPI_Comm communicator   = dof_partitioner->get_mpi_communicator();
@@ -140,7 +158,10 @@ namespace softcell
 
     // a node belongs to the lowest rank with an active cell on it
     Vector owner(dof_partitioner);
-    owner = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int nobody = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    owner                     = nobody;
+    for (const Dof dof : seen) // ghost values too
+      owner(dof) = nobody;
     for (const Dof dof : used)
       owner(dof) = rank;
     owner.compress(dealii::VectorOperation::min);
@@ -161,7 +182,7 @@ namespace softcell
     number.update_ghost_values();
 
     std::vector<unsigned int> ghosts;
-    for (const Dof dof : used)
+    for (const Dof dof : seen)
       if (owner(dof) != rank)
         ghosts.push_back(static_cast<unsigned int>(number(dof)));
     std::sort(ghosts.begin(), ghosts.end());
@@ -174,7 +195,7 @@ namespace softcell
       std::make_shared<const Partitioner>(owned_unknowns, ghost_unknowns, communicator);
 
     std::vector<unsigned int> local;
-    for (const Dof dof : used)
+    for (const Dof dof : seen)
       local.push_back(partitioner_->global_to_local(3 * static_cast<Dof>(number(dof))) / 3);
     return local;
   }

@@ -37,8 +37,9 @@ namespace softcell
                                                        "min_jacobian",
                                                        "converged"};
     const std::vector<std::string> further_columns  = {
-       "load_factor",   "cell_size",        "load_energy", "relative_l2_error", "relative_h1_error",
-       "observed_rate", "observed_rate_h1", "failure",     "fingerprint"};
+       "load_factor",          "cell_size",        "smallest_cut",      "load_energy",
+       "stabilization_energy", "condition",        "relative_l2_error", "relative_h1_error",
+       "observed_rate",        "observed_rate_h1", "failure",           "fingerprint"};
 
     std::string csv_cell(const std::string &text)
     {

@@ -9,10 +9,11 @@ namespace softcell
 {
   namespace
   {
-    std::vector<std::vector<unsigned int>> couplings(const Elasticity &elasticity,
-                                                     const Loads &loads)
+    std::vector<std::vector<unsigned int>>
+    couplings(const Elasticity &elasticity, const Stabilization &stabilization, const Loads &loads)
     {
       std::vector<std::vector<unsigned int>> lists = elasticity.couplings();
+      stabilization.add_couplings(lists);
       for (const auto &force : loads.forces)
         force->add_couplings(lists);
       return lists;
@@ -34,7 +35,7 @@ namespace softcell
         elasticity_(discretization, materials),
         stabilization_(discretization, materials),
         loads_(loads),
-        tangent_(discretization.partitioner(), couplings(elasticity_, loads)),
+        tangent_(discretization.partitioner(), couplings(elasticity_, stabilization_, loads)),
         linear_solver_(make_linear_solver(linear_solver, is_symmetric(loads))),
         timers_(timers),
         internal_(discretization.make_vector()),

@@ -262,6 +262,8 @@ namespace softcell
     row.set("converged", history_.converged);
     row.set("load_factor", history_.reached);
     row.set("cell_size", cell_size());
+    if (size_.smallest_cut < 1)
+      row.set("smallest_cut", size_.smallest_cut);
     if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
       row.set("load_energy", energy);
     if (const double energy = model_->stabilization().energy(displacement_); energy > 0)

@@ -22,6 +22,11 @@ namespace softcell
       "such as 1e-6 steadies badly cut cells. It follows the linear law with the body's Lame "
       "parameters, has neither mass nor volume, and may turn inside out. Units: 1",
       dealii::Patterns::Double(0, 0.01));
+    prm.add_parameter("Ghost penalty", ghost_penalty,
+                      "Holds the displacement of cut cells to that of their neighbours, extended; "
+                      "0.1 keeps the condition of the linear systems apart from how cells are cut. "
+                      "Units: 1",
+                      dealii::Patterns::Double(0));
     prm.add_parameter("Weighted cell spread", spread,
                       "Part of its filled volume that a weighted cell spreads evenly over all of "
                       "its points if few of them hold it all; 0 is Brunet's rule, whose slightly "

@@ -7,8 +7,11 @@
 #include <softcell/geometry/shapes.h>
 #include <softcell/operators/elasticity.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -21,16 +24,16 @@ namespace softcell
     /// A cube of 1 m in 3 x 3 x 3 cells of 0.5 m, of which the outer ones stand out by half.
     struct CutCube
     {
-      explicit CutCube(const CutParameters &cut)
-          : immersed("finite cell", 1, grid(), cut, *body, MPI_COMM_WORLD)
+      explicit CutCube(const CutParameters &cut, const double padding = 0.25)
+          : immersed("finite cell", 1, grid(padding), cut, *body, MPI_COMM_WORLD)
       {
       }
 
-      static GridParameters grid()
+      static GridParameters grid(const double padding)
       {
         GridParameters parameters;
         parameters.cells   = {3};
-        parameters.padding = 0.25;
+        parameters.padding = padding;
         return parameters;
       }
 
@@ -51,12 +54,45 @@ namespace softcell
         return r;
       }
 
+      BlockMatrix matrix(const Stabilization &stabilization) const
+      {
+        auto couplings = Elasticity(immersed, materials).couplings();
+        stabilization.add_couplings(couplings);
+        return {immersed.partitioner(), couplings};
+      }
+
       std::unique_ptr<Body> body = make_box(Point(1, 1, 1));
       Immersed immersed;
       std::vector<Material> materials = {Material("Neo-Hookean", E, nu)};
     };
 
-    const CutParameters soft_outside = {1, alpha};
+    const CutParameters soft_outside  = {1, alpha};
+    const CutParameters ghost_penalty = {1, 0, 0, 0.1};
+
+    /// Ratio of the largest eigenvalue to the smallest but `n_zero`; it gathers the matrix.
+    double spectral_condition(const BlockMatrix &K, const unsigned int n_zero)
+    {
+      const unsigned int n = K.partitioner()->size();
+      dealii::LAPACKFullMatrix<double> dense(n);
+      Vector x(K.partitioner()), y(x);
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        x = 0;
+        if (x.in_local_range(j))
+          x(j) = 1;
+        K.vmult(y, x);
+        for (unsigned int i = 0; i < n; ++i)
+          dense(i, j) =
+            dealii::Utilities::MPI::sum(y.in_local_range(i) ? y(i) : 0., MPI_COMM_WORLD);
+      }
+      dense.compute_eigenvalues();
+      std::vector<double> eigenvalues;
+      for (unsigned int i = 0; i < n; ++i)
+        eigenvalues.push_back(dense.eigenvalue(i).real());
+      std::sort(eigenvalues.begin(), eigenvalues.end());
+      EXPECT_GT(eigenvalues.front(), -1e-12 * eigenvalues.back());
+      return eigenvalues.back() / eigenvalues[n_zero];
+    }
 
     Direction crumpled(const Point &X)
     {
@@ -80,21 +116,23 @@ namespace softcell
 
   TEST(Stabilization, ForceAndTangentAreDerivativesOfTheEnergy)
   {
-    const CutCube cube(soft_outside);
-    const Stabilization stabilization(cube.immersed, cube.materials);
-    const Elasticity elasticity(cube.immersed, cube.materials);
-    BlockMatrix K(cube.immersed.partitioner(), elasticity.couplings());
-    stabilization.add_tangent(K);
-    K.compress();
+    for (const CutParameters &cut : {soft_outside, ghost_penalty})
+    {
+      const CutCube cube(cut);
+      const Stabilization stabilization(cube.immersed, cube.materials);
+      BlockMatrix K = cube.matrix(stabilization);
+      stabilization.add_tangent(K);
+      K.compress();
 
-    // of a quadratic energy, exactly: 2 E(u) = r . u and r = K u
-    const Vector u = cube.displacement(crumpled), r = cube.force(stabilization, u);
-    EXPECT_GT(stabilization.energy(u), 0.01 * alpha);
-    EXPECT_NEAR(r * u, 2 * stabilization.energy(u), 1e-12 * alpha);
-    Vector Ku = cube.immersed.make_vector();
-    K.vmult(Ku, u);
-    Ku -= r;
-    EXPECT_LT(Ku.linfty_norm(), 1e-12 * r.linfty_norm());
+      // of a quadratic energy, exactly: 2 E(u) = r . u and r = K u
+      const Vector u = cube.displacement(crumpled), r = cube.force(stabilization, u);
+      EXPECT_GT(stabilization.energy(u), 0.01 * alpha);
+      EXPECT_NEAR(r * u, 2 * stabilization.energy(u), 1e-12 * (r * u));
+      Vector Ku = cube.immersed.make_vector();
+      K.vmult(Ku, u);
+      Ku -= r;
+      EXPECT_LT(Ku.linfty_norm(), 1e-12 * r.linfty_norm());
+    }
   }
 
   /// A node far out is pushed in by 0.5 m along all axes: where the body is J is 1 - (xy + yz + zx)
@@ -112,6 +150,66 @@ namespace softcell
     const Stabilization stabilization(cube.immersed, cube.materials);
     EXPECT_GT(stabilization.energy(u), alpha * E / 100);
     EXPECT_TRUE(std::isfinite(cube.force(stabilization, u).l2_norm()));
+  }
+
+  /// A kink of 1 in the plane x = 0.25, between nine pairs of cells of which one at least is cut.
+  TEST(Stabilization, GhostPenaltyIsThatOfBurmanForTrilinearCells)
+  {
+    const CutCube cube(ghost_penalty);
+    const Stabilization stabilization(cube.immersed, cube.materials);
+    const Vector u     = cube.displacement([](const Point &X) {
+      return Direction({std::max(X[0] - 0.25, 0.), 0., 0.});
+    });
+    const double gamma = 0.1, M = lambda + 2 * mu, h = 0.5, area = 9 * h * h;
+    EXPECT_NEAR(stabilization.energy(u), M / 2 * gamma * 2. / 3 * h * area, 1e-14);
+  }
+
+  /// With hanging nodes too, of cells beside those that are cut.
+  TEST(Stabilization, GhostPenaltyLeavesPolynomialsAlone)
+  {
+    const auto body                       = make_sphere(0.5);
+    const std::vector<Material> materials = {Material("Neo-Hookean", E, nu)};
+    for (unsigned int degree = 1; degree <= 2; ++degree)
+      for (unsigned int refinement = 0; refinement <= 1; ++refinement)
+      {
+        GridParameters grid;
+        grid.cells              = {8 - 4 * refinement};
+        grid.surface_refinement = refinement;
+        const Immersed immersed("weighted cell", degree, grid, ghost_penalty, *body,
+                                MPI_COMM_WORLD);
+        const Stabilization stabilization(immersed, materials);
+        const auto energy = [&](const unsigned int power) {
+          Vector u = immersed.make_vector();
+          for (unsigned int node = 0; node < immersed.node_positions().size(); ++node)
+          {
+            const Point &X                = immersed.node_positions()[node];
+            u.local_element(3 * node + 1) = std::pow(X[0] + 0.5 * X[1] - X[2], power);
+          }
+          return stabilization.energy(u);
+        };
+        EXPECT_LT(energy(degree), 1e-13);
+        EXPECT_GT(energy(degree + 1), 1e-6);
+      }
+  }
+
+  /// The largest and the smallest eigenvalue but those of the six rigid motions, of a cube all but
+  /// whose middle cell is hardly cut. The octree sees a cut that holds a Gauss point of a leaf.
+  TEST(Stabilization, GhostPenaltyBoundsTheConditionHoweverCellsAreCut)
+  {
+    const auto condition = [](const unsigned int levels, const double gamma) {
+      const double filled = 0.25 * std::pow(0.5, levels); // of a cell along one axis
+      const CutCube cube({levels, 0, 0, gamma}, (1 - filled) / (1 + 2 * filled));
+      const Stabilization stabilization(cube.immersed, cube.materials);
+      const Elasticity elasticity(cube.immersed, cube.materials);
+      BlockMatrix K = cube.matrix(stabilization);
+      elasticity.add_tangent(cube.immersed.make_vector(), K);
+      stabilization.add_tangent(K);
+      K.compress();
+      return spectral_condition(K, 6);
+    };
+    const double well = condition(1, 0.1);
+    EXPECT_LT(condition(5, 0.1), 10 * well);
+    EXPECT_GT(condition(5, 0), 1e9 * well); // smallest cut 8^-6
   }
 
   TEST(Stabilization, IsNothingByDefault)

@@ -155,6 +155,7 @@ BAD_INPUTS = [
     ("probe beside the body", ["Probes/tip = 0.07, 0, 0.1"], None, ["tip", "0.07", "not in the body"]),
     ("unstable Nitsche", ["Loads/Nitsche factor = 0"], None, ["Loads/Nitsche factor", "0"]),
     ("all of a cut cell", ["Discretization/Alpha = 1"], None, ["Discretization/Alpha", "1"]),
+    ("negative ghost penalty", ["Discretization/Ghost penalty = -1"], None, ["Discretization/Ghost penalty", "-1"]),
     ("cells of a mesh that is there", ["Discretization/Mesh file = some.msh", "Study/Cells = 4, 8"], None,
      ["Study/Cells", "some.msh"]),
     ("grid too coarse", ["Discretization/Cells = 1", "Discretization/Smallest volume fraction = 0.9"], None,

@@ -53,6 +53,7 @@ namespace softcell
   {
     std::size_t cells = 0, cut_cells = 0, unknowns = 0,
                 integration_points = 0; // summed over all ranks
+    double smallest_cut            = 1; // filled fraction of the cell that is filled least
     double cell_size = 0; // edge of a background grid's largest cells, 0 of a mesh. Units: m
   };
 
@@ -102,6 +103,14 @@ namespace softcell
     /// with a soft material, which its weights are scaled for, it steadies cells of which the body
     /// fills little. No points where there is nothing of that.
     virtual Patch fictitious_patch(unsigned int /*i*/, PatchStorage & /*storage*/) const
+    {
+      return {};
+    }
+
+    /// Faces of cells that the body cuts, over which jumps of the displacement's gradient are
+    /// penalised. Over all ranks each face appears once; only here, a node may be in no patch of
+    /// this rank.
+    virtual View<const GhostFace> ghost_faces() const
     {
       return {};
     }

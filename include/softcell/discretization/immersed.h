@@ -55,6 +55,15 @@ namespace softcell
     /// times the part that is not filled: so every motion of the cell that strains it meets some
     /// resistance.
     Patch fictitious_patch(unsigned int i, PatchStorage &storage) const override;
+    /// With u_1 and u_2 the displacements of the two cells as polynomials, their energy is M/2 *
+    /// gamma / h^2 int |u_1 - u_2|^2 dV over both cells, with h across the face. That is at degree
+    /// 1 M/2 * gamma * 2/3 h int |jump of du/dn|^2 dA, of Burman (Ghost penalty, C. R. Math. 348,
+    /// 2010), and the same for any degree and for hanging nodes (Lehrenfeld and Olshanskii, ESAIM:
+    /// M2AN 53, 2019).
+    View<const GhostFace> ghost_faces() const override
+    {
+      return {ghost_faces_.data(), ghost_faces_.size()};
+    }
     std::vector<unsigned int> patch_nodes(unsigned int i) const override
     {
       return {nodes(i).begin(), nodes(i).end()};
@@ -93,15 +102,31 @@ namespace softcell
       std::vector<Point> corners; // of a convex polygon
     };
 
+    /// Two cells with a face in common, the first of them not larger than the second.
+    struct Neighbours
+    {
+      unsigned int first, second, axis;
+    };
+
     /// The grid's cells of which the rule sees something.
     std::vector<BackgroundGrid::Cell> take_cells(const BackgroundGrid &grid, MPI_Comm communicator);
     void number_nodes(const BackgroundGrid &grid, const std::vector<BackgroundGrid::Cell> &taken);
     /// Numbers and shares out the nodes of active cells: fills partitioner_.
     /// @param used  the grid's degrees of freedom in this rank's active cells, sorted.
-    /// @return their local node numbers.
+    /// @param seen  these and those of other ranks' cells that it knows of, sorted.
+    /// @return the local node numbers of the latter.
     std::vector<unsigned int>
     share_nodes(const std::vector<dealii::types::global_dof_index> &used,
+                const std::vector<dealii::types::global_dof_index> &seen,
                 const std::shared_ptr<const Partitioner> &dof_partitioner);
+
+    /// The active cells that share a face of which one at least is partly filled. Those of other
+    /// ranks are put behind this rank's in cells_, with their degrees of freedom in cell_dofs.
+    std::vector<Neighbours>
+    find_neighbours(const BackgroundGrid &grid,
+                    const std::vector<BackgroundGrid::Cell> &taken,
+                    std::vector<dealii::types::global_dof_index> &cell_dofs);
+    GhostFace make_ghost_face(const Neighbours &neighbours) const;
     void make_tables();
     View<const unsigned int> nodes(unsigned int cell) const;
 
@@ -126,13 +151,14 @@ namespace softcell
     std::optional<std::vector<unsigned int>> face_nodes(const Piece &piece) const;
 
     const Body &body_;
-    const double alpha_;
+    const double alpha_, ghost_penalty_;
     TensorShapes shapes_;
     std::unique_ptr<CutRule> rule_;
     Lattice lattice_;
     int coarsest_size_ = 1;
 
     std::vector<Cell> cells_;
+    std::vector<GhostFace> ghost_faces_;
     std::vector<unsigned int> nodes_;   // local numbers, cell after cell
     std::vector<double> condensations_; // (own nodes of the cell, n_nodes of the patch)
     std::vector<Point> gauss_points_;   // of the unit cube

@@ -62,6 +62,15 @@ namespace softcell
     }
   };
 
+  /// How far the displacements of two cells with a face in common are apart where both are
+  /// extended: with the modulus M of the material, the energy M/2 sum_ij products_ij u_i . u_j.
+  struct GhostFace
+  {
+    std::vector<unsigned int> nodes; // (n_nodes) local node numbers, of both cells
+    std::vector<double> products;    // (n_nodes, n_nodes) symmetric. Units: m
+    unsigned char label = 0;         // of the material
+  };
+
   /// Shapes of a boundary piece that lies in one cell, and its points.
   struct SurfacePatch
   {

@@ -10,14 +10,16 @@
 
 namespace softcell
 {
-  /// A soft linear material beside the body in cut cells, with the body's Lame parameters times
-  /// alpha: energy sum over cells of alpha int W(u) dV over what is not filled.
+  /// Two remedies for cells that hold so little of the body that their nodes are hardly held at
+  /// all, both with a quadratic energy: a soft material beside the body in cut cells, and a penalty
+  /// on jumps between cut cells and their neighbours.
   ///
-  /// The body does not feel it but where a cell holds so little of the body that its nodes would
-  /// hardly be held at all. It is geometrically linear, so that its tangent is constant and it may
-  /// be turned inside out. Source: Schillinger et al., Small and large deformation analysis with
-  /// the p- and B-spline versions of the Finite Cell Method, Comput. Mech. 50 (2012). All members
-  /// are collective; u needs its ghost values up to date.
+  /// The material has the body's Lame parameters times alpha and is geometrically linear, so that
+  /// its tangent is constant and it may be turned inside out. Source: Schillinger et al., Small and
+  /// large deformation analysis with the p- and B-spline versions of the Finite Cell Method,
+  /// Comput. Mech. 50 (2012). The penalty is in proportion to lambda + 2 mu and vanishes where the
+  /// displacement is one polynomial; the discretization tells its form. All members are collective;
+  /// u needs its ghost values up to date.
   class Stabilization
   {
   public:
@@ -33,9 +35,16 @@ namespace softcell
     /// Adds the tangent to K; the caller compresses. Units: N/m
     void add_tangent(BlockMatrix &K) const;
 
+    /// Lists of nodes that the tangent couples beyond those of single patches.
+    void add_couplings(std::vector<std::vector<unsigned int>> &couplings) const;
+
   private:
     template <class Function>
     void for_each_patch(const Vector &u, const Function &function) const;
+    /// lambda + 2 mu. Units: Pa
+    double modulus(const GhostFace &face) const;
+    /// The penalty's forces in the nodes of a face. Units: N
+    std::vector<Direction> forces(const GhostFace &face, const Vector &u) const;
 
     const Discretization &discretization_;
     std::vector<LinearElastic<>> laws_;

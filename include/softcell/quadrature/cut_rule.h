@@ -25,9 +25,10 @@ namespace softcell
   /// section Discretization.
   struct CutParameters
   {
-    unsigned int levels = 3;   // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
-    double alpha        = 0;   // stiffness of what is outside relative to the body's
-    double spread       = 0.1; // part of a WeightedCell's volume that steadies it
+    unsigned int levels  = 3;   // halvings of a cut cell; 0 counts a cut cell as full (sparse grid)
+    double alpha         = 0;   // stiffness of what is outside relative to the body's
+    double spread        = 0.1; // part of a WeightedCell's volume that steadies it
+    double ghost_penalty = 0;   // on jumps between cut cells and their neighbours
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
