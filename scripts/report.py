@@ -20,7 +20,7 @@ table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabu
   border-top: 1.5px solid #333; border-bottom: 1.5px solid #333; }
 th, td { padding: .18rem .45rem; text-align: right; white-space: nowrap; }
 th { border-bottom: 1px solid #333; font-weight: 600; vertical-align: bottom; } td.text, th.text { text-align: left; }
-tr.failed td { color: #a4161a; } details { margin: .7rem 0; } summary { cursor: pointer; }
+tr.failed td { color: #a4161a; } table.facts td { white-space: normal; } details { margin: .7rem 0; } summary { cursor: pointer; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(31rem, 1fr)); gap: 1.2rem 1.5rem; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(15.5rem, 1fr)); gap: .8rem; }
 figure { margin: 0; } figure.broad, .figures > p { grid-column: 1 / -1; }
@@ -32,10 +32,11 @@ def table(rows, columns, heads=None):
     """An HTML table; columns without values are left out."""
     columns = [name for name in columns if any(row.get(name) for row in rows)]
     is_text = {c: not all(is_number(row.get(c) or "0") for row in rows) for c in columns}
-    head = "".join(f"<th{' class=text' if is_text[c] else ''}>{(heads or {}).get(c, html.escape(c))}</th>" for c in columns)
+    heads_or_names = {**{c: html.escape(c) for c in columns}, **(heads or {})}
+    head = "".join(f"<th{' class=text' if is_text[c] else ''}>{heads_or_names[c]}</th>" for c in columns)
     lines = [f"<div class=wide><table><tr>{head}</tr>"]
     for row in rows:
-        cells = "".join(f"<td{' class=text' if is_text[c] else ''}>{shown(row.get(c) or '', 4 if heads else 6)[0]}</td>"
+        cells = "".join(f"<td{' class=text' if is_text[c] else ''}>{shown(row.get(c) or '', 3 if heads else 6)[0]}</td>"
                         for c in columns)
         lines.append(f"<tr{' class=failed' if has_failed(row) else ''}>{cells}</tr>")
     return "\n".join(lines) + "</table></div>"
@@ -45,7 +46,7 @@ HEADS = {"method": "method", "degree": "degree", "cut_levels": "cut<br>levels", 
          "load_steps": "load<br>steps", "newton_iterations": "Newton<br>iterations",
          "linear_iterations": "linear<br>iterations", "assembly_s": "assembly,<br>s", "total_s": "total,<br>s",
          "l2": "error in<br>L2, %", "observed_rate": "order", "h1": "error in<br>H1, %", "observed_rate_h1": "order",
-         "failure": "did not converge"}
+         "failure": "load<br>reached"}
 
 
 def summary(study):
@@ -54,16 +55,18 @@ def summary(study):
     if len(rows) > MOST_ROWS:
         finest = [max(curve, key=lambda row: number(row, "dofs") or 0)
                   for curve in study.curves(study.finest_levels()[0], study.tells)]
-        rows, note = finest, f"<p class=small>The finest case of each series; all {len(study.rows)} are below.</p>"
+        rows = finest + [row for row in study.rows if has_failed(row) and row not in finest][:MOST_ROWS]
+        what = "The finest case of each series" + (", and what did not converge" if len(rows) > len(finest) else "")
+        note = f"<p class=small>{what}; all {len(study.rows)} are below.</p>"
     rows = [dict(row) for row in rows]
     for row in rows:
         if has_failed(row):
             reached = number(row, "load_factor")
-            row["failure"] = row.get("failure", "")[:40] if reached is None else f"{reached:.3g} of the load reached"
-        row["h"] = f"{(number(row, 'cell_size') or 0) * study.factor:.4g}"
+            row["failure"] = "" if reached is None else f"{reached:.3g}"
+        row["h"] = f"{number(row, 'cell_size') * study.factor:.4g}" if row.get("cell_size") else ""
         for short, column in (("l2", "relative_l2_error"), ("h1", "relative_h1_error")):
             row[short] = str(100 * number(row, column)) if number(row, column) is not None else ""
-    columns = list(HEADS)
+    columns = [c for c in HEADS if c in study.tells or c not in ("degree", "cut_levels")]
     columns[1:1] = study.sweeps
     heads = {c: HEADS.get(c, html.escape(c)).format(unit=study.unit) for c in columns}
     return table(rows, columns, heads) + note
@@ -157,7 +160,7 @@ def main(folder, parameter_file=None):
     study = Study(folder)
     title, words = title_and_words(folder, parameter_file)
     sections = [("Errors", [plots.error_plots]), ("Cut levels", [plots.level_plots]), ("Time", [plots.cost_plots]),
-                ("Load steps and iterations", [plots.count_plots, plots.history_plots]),
+                ("Load steps and iterations", [plots.count_plots, plots.bar_plots, plots.history_plots]),
                 ("Probes", [plots.probe_plots])]
     body = ""
     for head, makers in sections:

@@ -41,7 +41,8 @@ class Axis:
         if self.column == "cell_size" and len(marks) <= 6:
             axis.set_major_locator(ticker.FixedLocator(marks))
         else:
-            subs = (1, 1.5, 2, 3, 4, 6, 8) if decades < 1.1 else (1, 2, 5) if decades < 2.5 else (1,)
+            subs = ((1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8) if decades < 0.4 else (1, 1.5, 2, 3, 4, 6) if decades < 1.1
+                    else (1, 2, 5) if decades < 2.5 else (1,))
             axis.set_major_locator(ticker.LogLocator(subs=subs, numticks=20))
         axis.set_minor_locator(ticker.LogLocator(subs=range(1, 10), numticks=20))
         axis.set_major_formatter(tick)
@@ -51,8 +52,8 @@ class Axis:
 DOFS, LEVELS = Axis("dofs", "unknowns"), Axis("cut_levels", "cut levels", integer=True)
 SECONDS, ASSEMBLY = Axis("total_s", "time to the solution, s"), Axis("assembly_s", "one tangent assembly, s")
 L2, H1 = (Axis(f"relative_{n.lower()}_error", f"relative error in {n}, %", 100) for n in ("L2", "H1"))
-STEPS, NEWTON = Axis("load_steps", "load steps", integer=True), Axis("newton_iterations", "Newton iterations",
-                                                                     integer=True)
+STEPS, REACHED = Axis("load_steps", "load steps", integer=True), Axis("load_factor", "share of the load reached")
+NEWTON, LINEAR = (Axis(f"{n.lower()}_iterations", f"{n} iterations", integer=True) for n in ("Newton", "linear"))
 
 
 def tick(value, _=None):
@@ -77,7 +78,7 @@ def slope_triangle(axes, order, place):
     axes.set_ylim(10**low, 10**high)
 
 
-def finished(figure, panels, caption):
+def finished(figure, panels, caption, height=HEIGHT):
     """The figure as SVG with a single legend below and a caption."""
     entries = {}
     for axes in panels:
@@ -86,8 +87,8 @@ def finished(figure, panels, caption):
     longest = max(map(len, entries), default=0)
     columns = max(1, min(len(entries), int(width / (0.55 + 0.075 * longest))))
     below = 0.15 + 0.2 * math.ceil(len(entries) / columns)
-    figure.set_figheight(HEIGHT + below)
-    figure.tight_layout(rect=(0, below / (HEIGHT + below), 1, 1), w_pad=1.5)
+    figure.set_figheight(height + below)
+    figure.tight_layout(rect=(0, below / (height + below), 1, 1), w_pad=1.5)
     if entries:
         figure.legend(entries.values(), entries.keys(), frameon=False, loc="lower center", ncol=columns,
                       borderaxespad=0.2, handlelength=2.4, columnspacing=1.5)
@@ -117,7 +118,7 @@ def draw_curves(study, axes, rows, x, y, rate=None):
             continue
         order = number(points[0][2], rate) if rate else None
         axes.plot([p[0] for p in points], [p[1] for p in points], **study.style(curve[0], tells, rows),
-                  label=study.name(curve[0], tells) + (f" ({order:.2f})" if order is not None else ""))
+                  label=study.name(curve[0], tells, rows) + (f" ({order:.2f})" if order is not None else ""))
         xs += [p[0] for p in points]
         ys += [p[1] for p in points]
     if xs:
@@ -135,14 +136,14 @@ def draw_counts(study, axes, rows, x, y):
         style = {**study.style(curve[0], tells, rows), "linewidth": 0.6}
         points = sorted((x.value(row) + shift, y.value(row) or 0, has_failed(row)) for row in curve)
         axes.plot([p[0] for p in points if not p[2]], [p[1] for p in points if not p[2]],
-                  label=study.name(curve[0], tells), **style)
+                  label=study.name(curve[0], tells, rows), **style)
         for point in points:
             if point[2]:
                 axes.plot(*point[:2], color=style["color"], clip_on=False, **CROSS)
     if any(map(has_failed, rows)):
         axes.plot([], [], color="#444444", label="did not converge", **CROSS)
     x.set_up(axes.xaxis, [x.value(row) for row in rows])
-    y.set_up(axes.yaxis, [])
+    y.set_up(axes.yaxis, [], is_log=False)
     axes.set_ylim(0, 1.08 * max([1, *(y.value(row) or 0 for row in rows)]))
 
 
@@ -197,6 +198,33 @@ def cost_plots(study):
                        f"unknowns.{note}")
 
 
+def has_single_cases(study):
+    """Is there neither a size nor a level to plot against?"""
+    return all(len(curve) == 1 for curve in study.curves(study.rows, [c for c in study.tells if c != "cut_levels"]))
+
+
+def bar_plots(study):
+    """Of cases that only methods and sweeps tell apart, a bar for each."""
+    if not has_single_cases(study) or len(study.rows) < 2:
+        return
+    rows = study.rows[:30][::-1]
+    ys = [y for y in (REACHED, STEPS, NEWTON, LINEAR, SECONDS) if len(values(rows, y.column)) > 1][:3]
+    if not ys:
+        return
+    figure, panels = plt.subplots(1, len(ys), sharey=True, squeeze=False, figsize=(10.8, 0.9 + 0.24 * len(rows)))
+    for axes, y in zip(panels[0], ys):
+        bars = axes.barh([study.name(row, study.tells) for row in rows], [y.value(row) or 0 for row in rows], 0.7,
+                         color=[study.style(row, study.tells, rows)["color"] for row in rows])
+        for bar, row in zip(bars, rows):
+            if has_failed(row):
+                bar.set(hatch="////", edgecolor="white")
+        y.set_up(axes.xaxis, [], is_log=False)
+        axes.set_xlim(0, 1 if y is REACHED else None)
+        axes.grid(False, axis="y")
+    note = " Hatched: did not converge." if any(map(has_failed, rows)) else ""
+    yield finished(figure, panels[0], f"All cases side by side.{note}", figure.get_figheight())
+
+
 def count_plots(study):
     """Load steps and Newton iterations, against levels where these are swept."""
     x = LEVELS if "cut_levels" in study.tells else DOFS
@@ -208,13 +236,15 @@ def count_plots(study):
         elif found != {None}:
             n = int(found.pop())
             yield f"<p>All cases take {n} {y.label if n > 1 else y.label[:-1]}.</p>"
+    if has_single_cases(study):
+        return  # then there are bars
+    ys += [REACHED] if any(map(has_failed, study.rows)) else []
     tells = study.tells_without(x.column)
     for title, part in study.panels([row for row in study.rows if x.value(row) is not None], tells) if ys else ():
         figure, panels = new_figure(len(ys), title)
         for axes, y in zip(panels, ys):
             draw_counts(study, axes, part, x, y)
-        yield finished(figure, panels, f"{' and '.join(y.label for y in ys).capitalize()} to the whole load.".replace(
-            "newton", "Newton"))
+        yield finished(figure, panels, ", ".join(y.label for y in ys).capitalize().replace("newton", "Newton") + ".")
 
 
 def history_plots(study):
@@ -227,7 +257,7 @@ def history_plots(study):
             row = max(curve, key=lambda one: number(one, "dofs") or 0)
             style = {**study.style(row, study.tells, part), "markevery": 0.12}
             panels[0].plot(histories[row["case"]], **style,
-                           label=f"{study.name(row, study.tells)}, {shown(row['dofs'])[0]} unknowns")
+                           label=f"{study.name(row, study.tells, part)}, {shown(row['dofs'])[0]} unknowns")
         panels[0].set_yscale("log")
         panels[0].xaxis.set_major_locator(ticker.MaxNLocator(integer=True))
         panels[0].set_xlabel("iteration")
@@ -255,7 +285,7 @@ def probe_plots(study):
             for curve in study.curves(part, study.tells):
                 curve = sorted(curve, key=DOFS.value)
                 axes.plot([DOFS.value(row) for row in curve], [y.value(row) for row in curve],
-                          label=study.name(curve[0], study.tells), **study.style(curve[0], study.tells, part))
+                          label=study.name(curve[0], study.tells, part), **study.style(curve[0], study.tells, part))
             if len(references) == 1 and y.value(references[0]) is not None:
                 axes.axhline(y.value(references[0]), color="#222222", linewidth=1, linestyle=(0, (6, 3)),
                              label="reference")

@@ -86,7 +86,9 @@ class Study:
         tells = [c for c in self.tells if c != x]
         return tells + ["cell_size"] if x == "cut_levels" and len(values(self.rows, "cell_size")) > 1 else tells
 
-    def name(self, row, tells):
+    def name(self, row, tells, rows=()):
+        """In words; without the sweeps that are the same in all `rows`, which the title of a panel says."""
+        tells = [c for c in tells if not rows or c not in self.sweeps or len(values(rows, c)) > 1]
         words = {"degree": "degree {}", "cut_levels": "{} levels"}
         parts = [f"h = {(number(row, c) or 0) * self.factor:.3g} {self.unit}" if c == "cell_size" else
                  words.get(c, "{}").format(row[c]).replace("1 levels", "1 level") for c in tells if row.get(c)]
@@ -99,7 +101,10 @@ class Study:
         kinds = sorted({tuple(r.get(c) or "" for c in marks) for r in self.rows}, key=lambda k: ("" in k, k))
         mark = kinds.index(tuple(row.get(c) or "" for c in marks))
         line = values(self.rows, self.line).index(row[self.line]) if self.line else 0
-        return {"color": self.colours[row.get(self.colour) or ""], "marker": MARKS[mark % len(MARKS)],
+        colour = self.colours[row.get(self.colour) or ""]
+        if self.tells and self.colour not in tells:  # it does not tell these curves apart
+            colour = MORE_COLOURS[mark % len(MORE_COLOURS)]
+        return {"color": colour, "marker": MARKS[mark % len(MARKS)],
                 "linestyle": LINES[line % len(LINES)]}
 
     @staticmethod
@@ -115,7 +120,7 @@ class Study:
             return self.rows, ""
         kept = []
         for curve in self.curves(self.rows, [c for c in self.tells if c != "cut_levels"]):
-            most = max(number(row, "cut_levels") or 0 for row in curve)
+            most = max((number(row, "cut_levels") or 0 for row in curve if row.get("dofs")), default=0)
             kept += [row for row in curve if (number(row, "cut_levels") or 0) == most]
         return kept, " Shown are the highest cut levels; the full table has all."
 

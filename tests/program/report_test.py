@@ -31,7 +31,7 @@ class Balance(html.parser.HTMLParser):
 
 
 def write_study(folder):
-    """Two methods and sizes, three levels and tissues; errors fall like h^2, and one case failed."""
+    """Two methods and sizes, three levels and tissues; errors fall like h^2, one case stops half way, one has no numbers."""
     table, residuals = [], {}
     for tissue in ("soft", "stiff & hard", "stiffer"):
         for k, method in enumerate(("finite cell", "weighted cell")):
@@ -49,6 +49,8 @@ def write_study(folder):
                     residuals[name] = [1, 0.1, 1e-4, 1e-8]
     table[0].update(converged="false", load_factor=0.5, relative_l2_error="", relative_h1_error="",
                     failure="no step <gains> anything")
+    table.append({"case": "out_of_memory", "method": "finite cell", "degree": 1, "cut_levels": 4, "tissue": "soft",
+                  "converged": "false", "failure": "out of memory"})
     folder.mkdir()
     with open(folder / "results.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, table[0])
@@ -88,9 +90,9 @@ def report(folder):
     page, plots = check_page(folder / "made_up" / "report.html", "Bending &amp; more", {
         "cell size h, cm", "unknowns", "time to the solution, s", "relative error in L2, %", "relative error in H1, %",
         "cut levels", "one tangent assembly, s", "load steps", "Newton iterations", "iteration", "relative residual",
-        "did not converge", "finite cell, soft, 3 levels (2.00)", "tissue: soft"})
+        "did not converge", "finite cell, soft, 3 levels (2.00)", "tissue: soft", "finite cell, h = 1.25 cm"})
     check(len(plots) >= 8 and "<p>What it is about.</p>" in page, f"{len(plots)} plots")
-    check("of which 1 did not converge" in page and "<tr class=failed>" in page, "what failed is marked")
+    check("of which 2 did not converge" in page and "<tr class=failed>" in page, "what failed is marked")
     check("no step &lt;gains&gt; anything" in page and "stiff &amp; hard" in page, "texts are escaped")
 
     (folder / "study.prm").write_text("# A bar.\n" + BAR + """
