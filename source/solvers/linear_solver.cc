@@ -329,9 +329,11 @@ namespace softcell
                       "Whose preconditioners are used: ML and Ifpack of Trilinos, or GAMG and ICC "
                       "of PETSc.",
                       dealii::Patterns::Selection("Trilinos|PETSc"));
-    prm.add_parameter("Linear tolerance", tolerance,
-                      "Residual of the linear system relative to its right-hand side. Units: 1",
-                      dealii::Patterns::Double(0., 1.));
+    prm.add_parameter(
+      "Linear tolerance", tolerance,
+      "Residual of the linear system relative to its right-hand side. Newton's method "
+      "mends what a loose one leaves, by an iteration more. Units: 1",
+      dealii::Patterns::Double(0., 1.));
     prm.add_parameter("Linear iterations", max_iterations,
                       "Iterations of the iterative solver after which a solve has failed.",
                       dealii::Patterns::Integer(1));

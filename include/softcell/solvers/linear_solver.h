@@ -17,7 +17,7 @@ namespace softcell
     std::string solver          = "CG";       // CG, direct (MUMPS)
     std::string preconditioner  = "AMG";      // none, Jacobi, incomplete Cholesky, AMG
     std::string backend         = "Trilinos"; // Trilinos, PETSc
-    double tolerance            = 1e-8;       // relative to |b|
+    double tolerance            = 1e-4;       // relative to |b|
     unsigned int max_iterations = 5000;
 
     /// Declares the entries in the section that is open, `Solver`.
