@@ -209,6 +209,8 @@ namespace softcell
         {
           best     = {xi, cell};
           distance = outside;
+          if (distance == 0)
+            break;
         }
       }
     }

@@ -60,6 +60,16 @@ namespace softcell
     return dealii::Utilities::MPI::sum(total, discretization_.communicator());
   }
 
+  void DeadLoad::add_force(const Direction &force,
+                           const View<const unsigned int> nodes,
+                           const double *const shapes,
+                           Vector &f)
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        f.local_element(3 * nodes[i] + c) += force[c] * shapes[i];
+  }
+
   Weight::Weight(const Discretization &discretization,
                  const Direction &gravity,
                  std::vector<double> densities)
@@ -76,12 +86,8 @@ namespace softcell
     {
       const Patch patch = discretization_.patch(p, storage);
       for (unsigned int q = 0; q < patch.n_points(); ++q)
-      {
-        const Direction force = t * densities_[patch.label(q)] * patch.weights[q] * gravity_;
-        for (unsigned int i = 0; i < patch.n_nodes(); ++i)
-          for (unsigned int c = 0; c < 3; ++c)
-            f.local_element(3 * patch.nodes[i] + c) += force[c] * patch.shapes->value(q)[i];
-      }
+        add_force(t * densities_[patch.label(q)] * patch.weights[q] * gravity_, patch.nodes,
+                  patch.shapes->value(q), f);
     }
   }
 
@@ -99,11 +105,7 @@ namespace softcell
   {
     for (const SurfacePatch &patch : patches_)
       for (unsigned int q = 0; q < patch.points.size(); ++q)
-      {
-        const Direction force = patch.weights[q] * traction_.at_load_factor(patch.points[q], t);
-        for (unsigned int i = 0; i < patch.nodes.size(); ++i)
-          for (unsigned int c = 0; c < 3; ++c)
-            f.local_element(3 * patch.nodes[i] + c) += force[c] * patch.shapes.value(q)[i];
-      }
+        add_force(patch.weights[q] * traction_.at_load_factor(patch.points[q], t), patch.nodes,
+                  patch.shapes.value(q), f);
   }
 } // namespace softcell

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A scalar or vector that the user gives as expressions of x, y, z and t.
+// A scalar or vector of x, y, z and t that the user gives as expressions.
 
 #include <softcell/loads/expression.h>
 
@@ -19,6 +19,7 @@ namespace softcell
     std::vector<mu::Parser> parsers;   // one per component
     std::vector<bool> is_free;
     bool uses_time = false;
+    std::function<Direction(const Point &, double)> function; // in place of the parsers
   };
 
   namespace
@@ -65,11 +66,22 @@ namespace softcell
     }
   }
 
+  Expression::Expression(std::function<Direction(const Point &, double)> function,
+                         const std::string &place)
+      : place_(place), formulas_(std::make_unique<Formulas>())
+  {
+    formulas_->is_free.assign(dim, false);
+    formulas_->uses_time = true;
+    formulas_->function  = std::move(function);
+  }
+
   Expression::~Expression()                      = default;
   Expression::Expression(Expression &&) noexcept = default;
 
   Direction Expression::value(const Point &X, const double t) const
   {
+    if (formulas_->function)
+      return formulas_->function(X, t);
     formulas_->variables = {{X[0], X[1], X[2], t}};
     Direction result;
     for (unsigned int c = 0; c < formulas_->parsers.size(); ++c)

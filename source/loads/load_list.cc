@@ -51,6 +51,20 @@ namespace softcell
                       "exact: on the pieces of surface in each cell; nodal: at the nodes of the "
                       "body's surface mesh, as Brunet (eq. 4.14 to 4.21).",
                       Patterns::Selection("exact|nodal"));
+    std::string fields = "none";
+    for (const std::string &name : manufactured_solution_names())
+      fields += '|' + name;
+    prm.add_parameter(
+      "Manufactured solution", manufactured,
+      "Makes a known displacement u(x, y, z) the solution, by the body force -Div P(I + grad u) "
+      "and by loads `displacement exact` and `traction exact` on regions; results.csv then has the "
+      "errors against it. sine: A sin(pi x) sin(pi y) sin(pi z) (1, 1/2, -3/4), which is 0 on the "
+      "boundary of the unit cube (Brunet, figure 2.8); waves: A (sin(2x + y - z + 0.3), "
+      "0.8 cos(x - 1.5y + 0.5z), 0.6 sin(0.5x + y + 2z - 0.7)).",
+      Patterns::Selection(fields));
+    prm.add_parameter("Manufactured amplitude", amplitude,
+                      "Units: m. A of the manufactured solution. Saint-Venant-Kirchhoff loses its "
+                      "ellipticity, and fine grids diverge, from 0.09 on with sine and nu = 0.3.");
   }
 
   namespace
@@ -73,7 +87,7 @@ namespace softcell
               descriptions.end(),
               [](const LoadDescription &load) { return load.kind == Kind::displacement; })),
             held_(surface.bounding_box()),
-            loads_{{}, ImposedDisplacement(discretization), ""}
+            loads_{{}, ImposedDisplacement(discretization), "", nullptr}
       {
       }
 
@@ -87,13 +101,41 @@ namespace softcell
             std::make_unique<Weight>(discretization_, parameters_.gravity, std::move(densities)));
       }
 
+      void add_manufactured_body_force()
+      {
+        if (parameters_.manufactured == "none")
+          return;
+        const std::string place = "Loads/Manufactured solution = " + parameters_.manufactured;
+        if (materials_.size() > 1)
+          throw BadInput(place + " has no jumps of strain between materials, but the body has " +
+                         std::to_string(materials_.size()) + " of them; choose a body of one.");
+        if (parameters_.gravity.norm() > 0)
+          throw BadInput(place + " is no equilibrium under a weight; set Gravity to 0, 0, 0.");
+        loads_.exact =
+          std::make_unique<ManufacturedSolution>(parameters_.manufactured, parameters_.amplitude);
+        add_force<ManufacturedBodyForce>(*loads_.exact, materials_[0]);
+      }
+
       void add(const LoadDescription &load, const Region &region)
       {
+        if (load.is_exact() && !loads_.exact)
+          throw BadInput(load.place + " has no known solution to be taken from; choose one by "
+                                      "Loads/Manufactured solution, such as sine.");
         if (load.kind == Kind::displacement)
         {
           add_displacement(load, region);
           return;
         }
+        if (load.is_exact())
+        {
+          add_force<ManufacturedTraction>(surface_patches(region), *loads_.exact, materials_[0],
+                                          load.region);
+          return;
+        }
+        if (loads_.exact)
+          throw BadInput(load.place + " drives the body away from the manufactured solution; load "
+                                      "the region with 'traction exact', or leave Loads/"
+                                      "Manufactured solution at none.");
         const bool is_traction = load.kind == Kind::traction;
         Expression value(load.value, is_traction ? 3 : 1, load.place);
         auto patches = surface_patches(region);
@@ -133,8 +175,8 @@ namespace softcell
 
       void add_displacement(const LoadDescription &load, const Region &region)
       {
-        Expression displacement(load.value, 3, load.place);
-        const std::string &how = parameters_.imposition;
+        Expression displacement = imposed_displacement(load);
+        const std::string &how  = parameters_.imposition;
         if (how == "automatic" || how == "strong")
         {
           if (const auto nodes = discretization_.nodes_on(region))
@@ -171,6 +213,15 @@ namespace softcell
           add_force<Nitsche>(std::move(patches), std::move(displacement), materials_,
                              parameters_.nitsche_factor, load.region);
         }
+      }
+
+      Expression imposed_displacement(const LoadDescription &load) const
+      {
+        if (!load.is_exact())
+          return Expression(load.value, 3, load.place);
+        return Expression([exact = loads_.exact.get()](
+                            const Point &X, const double t) { return t * exact->displacement(X); },
+                          load.place);
       }
 
       /// The stiffness of the entry Penalty. What each patch has of its own goes into its weights.
@@ -334,6 +385,7 @@ namespace softcell
   {
     Builder builder(parameters, discretization, surface, materials, descriptions);
     builder.add_weight();
+    builder.add_manufactured_body_force();
     for (const LoadDescription &load : descriptions)
       builder.add(load, find_region(load.region, regions));
     return builder.finish();

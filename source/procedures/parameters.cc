@@ -22,6 +22,7 @@ namespace softcell
 #   set NAME = traction 0, -30, 0           (Pa; keeps its direction)
 #   set NAME = pressure 1733                (Pa; inward, follows the surface)
 #   set NAME = springs 1e6                  (Pa/m; towards the place at rest)
+#   set NAME = displacement exact           (or traction exact, of the manufactured solution)
 #              Values are expressions of x, y, z and of the load factor t, which goes from 0 to 1;
 #              of those without t, t times the value acts, but springs are there from the start.
 # end
@@ -196,7 +197,7 @@ namespace softcell
 
     dealii::ParameterHandler loads;
     parameters.loads.add_parameters(loads);
-    std::vector<std::string> load_entries = {"gravity"}; // that is the weight's columns
+    std::vector<std::string> load_entries = {"gravity", "body_force"}; // columns of their own
     for (const auto &[name, value] : all_parameters(loads))
       load_entries.push_back(name);
     check_names("Regions", parameters.regions, load_entries);

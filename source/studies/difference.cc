@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// How far one discretization's displacement is from another's.
+// How far a discretization's displacement is from another's, or from a known one.
 
 #include <softcell/studies/difference.h>
 
@@ -27,8 +27,11 @@ namespace softcell
     };
 
     /// Takes in patches from `patch_number` on until there are enough points.
+    /// @param field field(patch, q, X) is the reference's displacement and gradient at point q of
+    ///              the patch, which lies at X.
+    template <class Field>
     Samples
-    next_samples(const Discretization &reference, const Vector &u, unsigned int &patch_number)
+    next_samples(const Discretization &reference, const Field &field, unsigned int &patch_number)
     {
       Samples samples;
       PatchStorage storage;
@@ -40,11 +43,11 @@ namespace softcell
         reference.patch_points(patch_number, points);
         for (unsigned int q = 0; q < patch.n_points(); ++q)
         {
+          const auto [value, gradient] = field(patch, q, points[q]);
           samples.points.push_back(points[q]);
           samples.weights.push_back(patch.weights[q]);
-          samples.values.push_back(interpolate(patch.nodes, patch.shapes->value(q), u));
-          samples.gradients.push_back(
-            interpolate_gradient(patch.nodes, patch.shapes->gradient(q), u));
+          samples.values.push_back(value);
+          samples.gradients.push_back(gradient);
         }
       }
       return samples;
@@ -56,6 +59,55 @@ namespace softcell
         return error == 0 ? 0 : std::numeric_limits<double>::infinity();
       return std::sqrt(error / norm);
     }
+
+    template <class Field>
+    Difference integrate_difference(const Discretization &discretization,
+                                    const Vector &u,
+                                    const Discretization &reference,
+                                    const Field &field,
+                                    const double reach)
+    {
+      const MPI_Comm communicator = reference.communicator();
+
+      enum : unsigned int
+      {
+        l2_error,
+        l2_norm,
+        h1_error,
+        h1_norm,
+        volume,
+        missed,
+        n_sums
+      };
+      std::array<double, n_sums> sums{};
+      unsigned int patch_number = 0;
+      bool somebody_has_more    = true;
+      while (somebody_has_more)
+      {
+        const Samples samples   = next_samples(reference, field, patch_number);
+        const PointValues other = evaluate(discretization, u, samples.points, reach);
+        for (std::size_t k = 0; k < samples.points.size(); ++k)
+        {
+          const double weight = samples.weights[k];
+          sums[volume] += weight;
+          if (std::isinf(other.distances[k]))
+          {
+            sums[missed] += weight;
+            continue;
+          }
+          sums[l2_error] += weight * (other.displacements[k] - samples.values[k]).norm_square();
+          sums[l2_norm] += weight * samples.values[k].norm_square();
+          sums[h1_error] += weight * (other.gradients[k] - samples.gradients[k]).norm_square();
+          sums[h1_norm] += weight * samples.gradients[k].norm_square();
+        }
+        somebody_has_more =
+          dealii::Utilities::MPI::logical_or(patch_number < reference.n_patches(), communicator);
+      }
+
+      dealii::Utilities::MPI::sum(View<const double>(sums), communicator, View<double>(sums));
+      return {ratio(sums[l2_error], sums[l2_norm]), ratio(sums[h1_error], sums[h1_norm]),
+              sums[missed] / sums[volume]};
+    }
   } // namespace
 
   Difference difference(const Discretization &discretization,
@@ -64,45 +116,41 @@ namespace softcell
                         const Vector &reference_u,
                         const double reach)
   {
-    const MPI_Comm communicator = reference.communicator();
-
-    enum : unsigned int
-    {
-      l2_error,
-      l2_norm,
-      h1_error,
-      h1_norm,
-      volume,
-      missed,
-      n_sums
+    const auto field = [&](const Patch &patch, const unsigned int q, const Point &) {
+      return std::pair(interpolate(patch.nodes, patch.shapes->value(q), reference_u),
+                       interpolate_gradient(patch.nodes, patch.shapes->gradient(q), reference_u));
     };
-    std::array<double, n_sums> sums{};
-    unsigned int patch_number = 0;
-    bool somebody_has_more    = true;
-    while (somebody_has_more)
-    {
-      const Samples samples   = next_samples(reference, reference_u, patch_number);
-      const PointValues other = evaluate(discretization, u, samples.points, reach);
-      for (std::size_t k = 0; k < samples.points.size(); ++k)
-      {
-        const double weight = samples.weights[k];
-        sums[volume] += weight;
-        if (std::isinf(other.distances[k]))
-        {
-          sums[missed] += weight;
-          continue;
-        }
-        sums[l2_error] += weight * (other.displacements[k] - samples.values[k]).norm_square();
-        sums[l2_norm] += weight * samples.values[k].norm_square();
-        sums[h1_error] += weight * (other.gradients[k] - samples.gradients[k]).norm_square();
-        sums[h1_norm] += weight * samples.gradients[k].norm_square();
-      }
-      somebody_has_more =
-        dealii::Utilities::MPI::logical_or(patch_number < reference.n_patches(), communicator);
-    }
+    return integrate_difference(discretization, u, reference, field, reach);
+  }
 
-    dealii::Utilities::MPI::sum(View<const double>(sums), communicator, View<double>(sums));
-    return {ratio(sums[l2_error], sums[l2_norm]), ratio(sums[h1_error], sums[h1_norm]),
-            sums[missed] / sums[volume]};
+  Difference difference(const Discretization &discretization,
+                        const Vector &u,
+                        const Discretization &points,
+                        const ManufacturedSolution &exact,
+                        const double reach)
+  {
+    const auto field = [&](const Patch &, unsigned int, const Point &X) {
+      return std::pair(exact.displacement(X), exact.gradient(X));
+    };
+    return integrate_difference(discretization, u, points, field, reach);
+  }
+
+  std::unique_ptr<Discretization> finer_points(const DiscretizationParameters &parameters,
+                                               const GeometryParameters &geometry,
+                                               const Body &body,
+                                               MPI_Comm communicator)
+  {
+    DiscretizationParameters finer = parameters;
+    finer.method                   = "finite cell";
+    finer.cut                      = CutParameters();
+    finer.cut.levels               = 1; // where the boundary is matters little to a mean
+    for (unsigned int &n : finer.grid.cells)
+      n *= 2;
+    finer.grid.cell_size /= 2;
+    if (parameters.method == "tetrahedra" && parameters.mesh.size > 0)
+      finer.grid.cell_size = parameters.mesh.size / 2;
+    finer.grid.smallest_volume_fraction = 0;
+    std::vector<std::string> remarks;
+    return make_discretization(finer, geometry, body, communicator, remarks);
   }
 } // namespace softcell

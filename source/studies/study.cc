@@ -69,8 +69,9 @@ namespace softcell
       void provide_reference(const Case &one);
       void solve_case(Case &one, const std::string &what);
       void fail(Case &one, const std::string &reason);
-      /// Adds the difference to the reference.
-      void add_errors(const Simulation &simulation, ResultsRow &row);
+      /// The difference to the manufactured solution or else to the reference.
+      Difference error_of(const Case &one, const Simulation &simulation);
+      void add_errors(const Difference &error, ResultsRow &row);
       void write_table();
       void write_record(const std::string &status, const std::string &message);
       void say_what_is_left();
@@ -151,6 +152,10 @@ namespace softcell
       one.parameters = read_run(file, settings, study_case.settings, "Study, case " + one.name);
       if (!parameters_.study.reference.empty())
       {
+        if (one.parameters.loads.manufactured != "none")
+          throw BadInput("Study/Reference = " + parameters_.study.reference +
+                         " is not needed with Loads/Manufactured solution = " +
+                         one.parameters.loads.manufactured + "; remove one of the two.");
         StudyRun reference;
         reference.name               = "reference" + study_case.problem;
         std::vector<std::string> all = study_case.problem_settings;
@@ -412,8 +417,8 @@ namespace softcell
       const std::filesystem::path folder = folder_of(one);
       const bool is_solved               = simulation->solve(folder);
       ResultsRow row                     = simulation->row();
-      if (is_solved && reference_)
-        add_errors(*simulation, row);
+      if (is_solved && (reference_ || simulation->exact()))
+        add_errors(error_of(one, *simulation), row);
       for (const auto &[name, label] : one.labels)
         row.set(name, label);
       if (!is_solved)
@@ -447,11 +452,20 @@ namespace softcell
       write_table();
     }
 
-    void Study::add_errors(const Simulation &simulation, ResultsRow &row)
+    Difference Study::error_of(const Case &one, const Simulation &simulation)
     {
-      const Difference error =
-        difference(simulation.discretization(), simulation.displacement(),
-                   reference_->discretization(), reference_->displacement(), simulation.reach());
+      const Discretization &discretization = simulation.discretization();
+      if (!simulation.exact())
+        return difference(discretization, simulation.displacement(), reference_->discretization(),
+                          reference_->displacement(), simulation.reach());
+      const auto points = finer_points(one.parameters.discretization, one.parameters.geometry,
+                                       body_of(one.parameters), discretization.communicator());
+      return difference(discretization, simulation.displacement(), *points, *simulation.exact(),
+                        simulation.reach());
+    }
+
+    void Study::add_errors(const Difference &error, ResultsRow &row)
+    {
       row.set("relative_l2_error", error.relative_l2);
       row.set("relative_h1_error", error.relative_h1);
       if (error.missed > 0)

@@ -41,6 +41,7 @@ def write_files(folder):
     (folder / "empty.off").write_text("")
     header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\nencoding: raw\n\n").encode()
     (folder / "image.nrrd").write_bytes(header + b"\1" * 512)
+    (folder / "two.nrrd").write_bytes(header + b"\1" * 256 + b"\2" * 256)
     (folder / "truncated.nrrd").write_bytes(header + b"\1" * 100)
 
 
@@ -96,6 +97,16 @@ BAD_INPUTS = [
      ["Loads/top", "finite", "t = 0.1"]),
     ("springs that push", ["Loads/base = springs -1e6"], None, ["Loads/base", "-1e6", "negative"]),
     ("springs of no stiffness", ["Loads/base = springs 0"], None, ["free to move along x, y and z"]),
+    ("load by no solution", ["Loads/top = traction exact"], None, ["Loads/top", "exact", "Manufactured solution"]),
+    ("load beside a manufactured one", ["Loads/Manufactured solution = sine"], None,
+     ["Loads/top", "0, -30, 0", "traction exact"]),
+    ("weight beside a manufactured load", ["Loads/Manufactured solution = sine", "Loads/Gravity = 0, 0, -9.81"], None,
+     ["Manufactured solution = sine", "Gravity"]),
+    ("manufactured solution of two materials", image("two.nrrd", "Loads/Manufactured solution = sine"), None,
+     ["Manufactured solution = sine", "2"]),
+    ("two references", ["Loads/Manufactured solution = sine", "Loads/top = traction exact",
+                        "Study/Reference = Discretization/Cells = 8"], None,
+     ["Study/Reference", "Manufactured solution = sine", "remove"]),
     ("negative penalty", ["Loads/Penalty = -5", "Loads/Imposed displacement = penalty"], None,
      ["Loads/Penalty", "-5", "negative"]),
     ("probe that is no point", ["Probes/tip = 0, 1"], None, ["tip", "0, 1"]),

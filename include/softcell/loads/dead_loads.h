@@ -27,6 +27,13 @@ namespace softcell
     /// Adds the nodal forces at t of this rank's patches to f, which has ghost entries. Units: N
     virtual void integrate(double t, Vector &f) const = 0;
 
+    /// Adds the nodal forces of a force at a point to f.
+    /// @param shapes (n_nodes) values there.
+    static void add_force(const Direction &force,
+                          View<const unsigned int> nodes,
+                          const double *shapes,
+                          Vector &f);
+
     const Discretization &discretization_;
 
   private:

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A scalar or vector that the user gives as expressions of x, y, z and t.
+// A scalar or vector of x, y, z and t that the user gives as expressions.
 #pragma once
 
 #include <softcell/base/types.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,8 @@ namespace softcell
     /// @param place  where the text stands (`Loads/top = 'traction 0, 0, 1'`), for messages.
     /// @throws BadInput
     Expression(const std::string &text, unsigned int n_components, const std::string &place);
+    /// A vector by a function of X and t, in place of text.
+    Expression(std::function<Direction(const Point &, double)> function, const std::string &place);
     ~Expression();
     Expression(Expression &&) noexcept;
 

@@ -23,14 +23,21 @@ namespace softcell
 
     std::string region;
     Kind kind;
-    std::string value; // its expressions
+    std::string value; // its expressions, or `exact`
     std::string place; // `Loads/NAME = 'kind value'`, for messages
+
+    /// Is it that of the manufactured solution?
+    bool is_exact() const
+    {
+      return value == "exact";
+    }
   };
 
   /// Reads entries (name of a region, text):
   ///   clamp | displacement ux, uy, uz | traction tx, ty, tz | pressure p | springs k
   /// with values in m, Pa and Pa/m that are expressions of x, y, z and t. Values that do not
-  /// contain t are multiplied by the load factor t, but for k.
+  /// contain t are multiplied by the load factor t, but for k. `displacement exact` and `traction
+  /// exact` are those of the manufactured solution.
   /// @throws BadInput
   std::vector<LoadDescription>
   parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,

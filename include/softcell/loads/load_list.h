@@ -6,6 +6,7 @@
 #include <softcell/loads/imposed_displacement.h>
 #include <softcell/loads/load.h>
 #include <softcell/loads/load_description.h>
+#include <softcell/loads/manufactured_solution.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -24,6 +25,8 @@ namespace softcell
     std::string penalty    = "automatic"; // or an expression of x, y, z, t. Pa/m, or N/m if nodal
     double nitsche_factor  = 10;
     std::string surface_integration = "exact"; // exact, nodal
+    std::string manufactured        = "none";  // or one of manufactured_solution_names()
+    double amplitude                = 0.05;    // of the manufactured solution. m
 
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -35,6 +38,7 @@ namespace softcell
     std::vector<std::unique_ptr<Load>> forces; // with the supports that act by forces
     ImposedDisplacement imposed;
     std::string free_motions; // RigidModes::free_motions() of all supports; empty if none is free
+    std::unique_ptr<const ManufacturedSolution> exact; // if there is one
   };
 
   /// Builds the loads on a discretization of a body. Collective.

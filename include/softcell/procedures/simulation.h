@@ -46,6 +46,12 @@ namespace softcell
       return displacement_;
     }
 
+    /// The displacement that the loads were made for; null if there is none.
+    const ManufacturedSolution *exact() const
+    {
+      return loads_->exact.get();
+    }
+
     /// How far outside all cells a point of the body may lie. Units: m
     double reach() const;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// How far one discretization's displacement is from another's.
+// How far a discretization's displacement is from another's, or from a known one.
 #pragma once
 
-#include <softcell/discretization/discretization.h>
+#include <softcell/discretization/methods.h>
+#include <softcell/loads/manufactured_solution.h>
 
 namespace softcell
 {
@@ -25,4 +26,20 @@ namespace softcell
                         const Discretization &reference,
                         const Vector &reference_u,
                         double reach);
+
+  /// The difference of u from a known displacement, by the points of finer_points(). Collective.
+  Difference difference(const Discretization &discretization,
+                        const Vector &u,
+                        const Discretization &points,
+                        const ManufacturedSolution &exact,
+                        double reach);
+
+  /// The integration points by which a discretization is measured against a known displacement:
+  /// those of finite cells of its degree, two along each edge of a cell. Its own would not do,
+  /// since gradients are superconvergent there. Collective.
+  /// @param parameters,geometry what it and its body were made from.
+  std::unique_ptr<Discretization> finer_points(const DiscretizationParameters &parameters,
+                                               const GeometryParameters &geometry,
+                                               const Body &body,
+                                               MPI_Comm communicator);
 } // namespace softcell
