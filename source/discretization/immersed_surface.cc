@@ -144,16 +144,19 @@ namespace softcell
     const dealii::QWitherdenVincentSimplex<2> rule(std::min(degree() + 1, 7u));
     for (const Piece &piece : all_pieces)
     {
-      SurfacePatch &patch    = patches[piece.cell];
-      const Direction normal = surface.normal(piece.triangle);
-      const auto &X          = piece.corners;
+      SurfacePatch &patch = patches[piece.cell];
+      const auto &X       = piece.corners;
       for (unsigned int i = 2; i < X.size(); ++i)
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const auto &xi = rule.point(q);
-          patch.points.push_back(X[0] + xi[0] * (X[i - 1] - X[0]) + xi[1] * (X[i] - X[0]));
-          patch.weights.push_back(2 * rule.weight(q) * triangle_area(X[0], X[i - 1], X[i]));
-          patch.normals.push_back(normal);
+          const BoundaryPoint true_point =
+            body_.on_boundary(X[0] + xi[0] * (X[i - 1] - X[0]) + xi[1] * (X[i] - X[0]),
+                              surface.normal(piece.triangle), surface.patches()[piece.triangle]);
+          patch.points.push_back(true_point.X);
+          patch.weights.push_back(2 * rule.weight(q) * triangle_area(X[0], X[i - 1], X[i]) *
+                                  true_point.stretch);
+          patch.normals.push_back(true_point.normal);
           patch.labels.push_back(body_.label(patch.points.back()));
         }
     }

@@ -52,6 +52,16 @@ namespace softcell
                                   positive("Radius", p.radius));
     }
 
+    std::unique_ptr<Body> make_hollow_sphere(const GeometryParameters &p)
+    {
+      if (!(p.inner_radius < p.radius))
+        throw BadInput("Geometry/Inner radius = " + as_text(p.inner_radius) +
+                       " is not below Radius = " + as_text(p.radius) +
+                       " of the hollow sphere: nothing would be left of it; give a smaller one.");
+      return softcell::make_hollow_sphere(positive("Radius", p.radius),
+                                          positive("Inner radius", p.inner_radius));
+    }
+
     struct BodyType
     {
       std::string name;
@@ -84,6 +94,8 @@ namespace softcell
        }},
       {"sphere", [](const GeometryParameters &p,
                     Remarks &) { return make_sphere(positive("Radius", p.radius)); }},
+      {"hollow sphere",
+       [](const GeometryParameters &p, Remarks &) { return make_hollow_sphere(p); }},
       {"torus", [](const GeometryParameters &p, Remarks &) { return make_torus(p); }},
       {"hexagonal prism", [](const GeometryParameters &p, Remarks &) {
          return make_hexagonal_prism(positive("Radius", p.radius), positive("Length", p.length));
@@ -118,9 +130,12 @@ namespace softcell
       "holes otherwise; those with a section `Material LABEL` need not be named. Each may have a "
       "section `Material LABEL` of its own.",
       List(Integer(0), 0, 255));
-    prm.add_parameter("Radius", radius,
-                      "Units: m. Cylinder and sphere; of a torus, that of its tube; of a hexagonal "
-                      "prism, from the axis to the corners.",
+    prm.add_parameter(
+      "Radius", radius,
+      "Units: m. Cylinder and spheres; of a torus, that of its tube; of a hexagonal "
+      "prism, from the axis to the corners.",
+      Double(0));
+    prm.add_parameter("Inner radius", inner_radius, "Units: m. Hollow sphere: of its cavity.",
                       Double(0));
     prm.add_parameter("Ring radius", ring_radius,
                       "Units: m. Torus: from the axis to the middle of the tube.", Double(0));

@@ -106,6 +106,8 @@ namespace softcell
     /// x^2 + y^2 <= radius^2. Its 132 chords enclose 3.8e-4 less than the circle.
     struct Disk
     {
+      static constexpr unsigned int n_rings = 22, n_chords = 6 * n_rings;
+
       explicit Disk(const double radius_) : radius(radius_) {}
 
       Point extent() const
@@ -136,10 +138,25 @@ namespace softcell
 
       Rings rings() const
       {
-        return make_rings(Point(), 6, 22, [&](const unsigned int k, const unsigned int j) {
+        return make_rings(Point(), 6, n_rings, [&](const unsigned int k, const unsigned int j) {
           const double angle = PI * j / (3 * k);
-          return Point(Point(std::cos(angle), std::sin(angle), 0) * (radius * k / 22));
+          return Point(Point(std::cos(angle), std::sin(angle), 0) * (radius * k / n_rings));
         });
+      }
+
+      /// Points of the side go outward to the circle, those of the ends in proportion to their
+      /// distance from the axis.
+      BoundaryPoint on_boundary(const Point &X, const Direction &normal, const bool is_side) const
+      {
+        if (is_side)
+        {
+          const double r = std::hypot(X[0], X[1]);
+          const Direction ray({X[0] / r, X[1] / r, 0});
+          return {X + (radius - r) * ray, ray, radius / r * (normal * ray)};
+        }
+        const double half = PI / n_chords, angle = std::atan2(X[1], X[0]) + 2 * PI,
+                     factor = std::cos(std::fmod(angle, 2 * half) - half) / std::cos(half);
+        return {Point(factor * X[0], factor * X[1], X[2]), normal, factor * factor};
       }
 
       const double radius;
@@ -234,6 +251,11 @@ namespace softcell
         });
       }
 
+      BoundaryPoint on_boundary(const Point &X, const Direction &normal, bool /*is_side*/) const
+      {
+        return {X, normal};
+      }
+
       double inner_radius() const
       {
         return std::sqrt(0.75) * radius;
@@ -280,6 +302,12 @@ namespace softcell
       double volume() const override
       {
         return length_ * section_.area();
+      }
+
+      BoundaryPoint
+      on_boundary(const Point &X, const Direction &normal, const unsigned int patch) const override
+      {
+        return section_.on_boundary(X, normal, patch == 0);
       }
 
     private:

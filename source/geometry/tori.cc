@@ -79,6 +79,22 @@ namespace softcell
         return ring_ > 0 ? 2 * PI * PI * ring_ * tube_ * tube_ : 4. / 3. * PI * std::pow(tube_, 3);
       }
 
+      /// Along the ray from the ring, of which a triangle sees normal * ray.
+      BoundaryPoint
+      on_boundary(const Point &X, const Direction &normal, unsigned int) const override
+      {
+        const double from_axis = std::hypot(X[0], X[1]);
+        Point centre(0, 0, tube_);
+        if (ring_ > 0)
+          centre += ring_ / from_axis * Direction({X[0], X[1], 0});
+        const double distance = X.distance(centre);
+        const Direction ray   = (X - centre) / distance;
+        const Point there     = centre + tube_ * ray;
+        const double around =
+          ring_ > 0 ? std::hypot(there[0], there[1]) / from_axis : tube_ / distance;
+        return {there, ray, tube_ / distance * around * (normal * ray)};
+      }
+
     private:
       /// Area of the slice at height z above the ring's plane, within the box.
       double slice(const double z, const Box &box) const

@@ -147,10 +147,13 @@ namespace softcell
     const double h =
       1.13 / 4 * std::min({box.side_length(0), box.side_length(1), box.side_length(2)});
     const auto check_boundary = [&](const Sums &all) {
-      EXPECT_LT(all.normal.norm(), 1e-12 * all.area);
-      // pieces are looked for 1e-9 of a cell inside the body
-      EXPECT_NEAR(all.flux, 3 * body.surface().volume(), 1e-8 * all.flux);
-      EXPECT_NEAR(all.flux, 3 * body.volume(), 1e-3 * all.flux); // facets, or smoothed voxels
+      // Pieces of curved sides are up to 1/20 of the radius wide, and their quadrature has degree
+      // 3; those of a cylinder's ends have kinks.
+      const bool has_kinks = GetParam() == std::string("cylinder");
+      EXPECT_LT(all.normal.norm(), (has_kinks ? 1e-7 : 1e-11) * all.area);
+      EXPECT_NEAR(all.flux, 3 * (is_image ? body.surface().volume() : body.volume()),
+                  (has_kinks ? 4e-5 : 6e-6) * all.flux);
+      EXPECT_NEAR(all.flux, 3 * body.volume(), 1e-3 * all.flux); // smoothed voxels
     };
 
     for (const std::string method : {"finite cell", "weighted cell"})

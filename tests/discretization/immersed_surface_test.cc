@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cmath>
 
 namespace softcell
 {
@@ -27,13 +27,14 @@ namespace softcell
 
   TEST(ImmersedSurface, EveryPieceAppearsOnce)
   {
-    std::vector<std::unique_ptr<Body>> bodies;
-    bodies.push_back(make_box(Point(0.1, 0.2, 0.15)));
-    bodies.push_back(make_cylinder(0.05, 0.2));
-    bodies.push_back(make_sphere(0.05));
-    bodies.push_back(make_torus(0.1, 0.04));
-    bodies.push_back(make_hexagonal_prism(0.05, 0.2));
-    for (const auto &body : bodies)
+    std::vector<std::pair<std::unique_ptr<Body>, double>> bodies; // with their areas
+    bodies.emplace_back(make_box(Point(0.1, 0.2, 0.15)), 0.13);
+    bodies.emplace_back(make_cylinder(0.05, 0.2), 0.025 * M_PI);
+    bodies.emplace_back(make_sphere(0.05), 0.01 * M_PI);
+    bodies.emplace_back(make_hollow_sphere(0.05, 0.02), 0.0116 * M_PI);
+    bodies.emplace_back(make_torus(0.1, 0.04), 0.016 * M_PI * M_PI);
+    bodies.emplace_back(make_hexagonal_prism(0.05, 0.2), 0.06 + 0.0075 * std::sqrt(3.));
+    for (const auto &[body, true_area] : bodies)
       for (const double scale : {1., 1.37})
         for (unsigned int refinement = 0; refinement <= 1; ++refinement)
         {
@@ -60,9 +61,10 @@ namespace softcell
           area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
           x_n  = dealii::Utilities::MPI::sum(x_n, MPI_COMM_WORLD);
           n    = dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD);
-          EXPECT_NEAR(area, body->surface().area(), 1e-9 * area);
-          EXPECT_NEAR(x_n, 3 * body->surface().volume(), 1e-7 * x_n);
-          EXPECT_LT(n.norm(), 1e-9 * area);
+          // the pieces of a cylinder's ends have kinks
+          EXPECT_NEAR(area, true_area, 4e-5 * area);
+          EXPECT_NEAR(x_n, 3 * body->volume(), 4e-5 * x_n);
+          EXPECT_LT(n.norm(), 1e-7 * area);
         }
   }
 

@@ -16,6 +16,14 @@ namespace softcell
     outside ///< no point of the box is in the body
   };
 
+  /// A point of the true boundary and what it stands for.
+  struct BoundaryPoint
+  {
+    Point X;
+    Direction normal;   // unit outward
+    double stretch = 1; // area of the boundary per area of the triangle
+  };
+
   /// A closed, bounded set of points of space in its reference configuration. Lengths in m.
   ///
   /// A body gives exact answers for what it is made of: triangles, voxels or a formula. All members
@@ -42,6 +50,16 @@ namespace softcell
 
     /// The body's boundary as closed triangles, normals outward, in numbered patches.
     virtual const Surface &surface() const = 0;
+
+    /// The point of the true boundary for which a point of a triangle of surface() stands: itself,
+    /// but for the curved sides of shapes. Integrals over all triangles become those over the true
+    /// boundary.
+    /// @param normal,patch of the triangle.
+    virtual BoundaryPoint
+    on_boundary(const Point &X, const Direction &normal, unsigned int /*patch*/) const
+    {
+      return {X, normal};
+    }
 
     /// Number of different materials in the body. Labels run from 0 to n_labels() - 1.
     virtual unsigned int n_labels() const

@@ -20,10 +20,11 @@ namespace softcell
     double scale                     = 1;         // metres per unit of the file
     std::vector<unsigned int> labels = {}; // image: those that form the body; empty: all but 0
                                            // surface: patches of parts with their own material
-    double radius = 0.05; // cylinder, sphere, torus (of the tube), hexagonal prism (circumradius)
-    double ring_radius = 0.1;            // torus: from the axis to the middle of the tube
-    double length      = 0.6;            // cylinder, hexagonal prism: along z
-    Point size         = Point(1, 1, 1); // box
+    double radius = 0.05; // cylinder, spheres, torus (of the tube), hexagonal prism (circumradius)
+    double inner_radius = 0.025;          // hollow sphere
+    double ring_radius  = 0.1;            // torus: from the axis to the middle of the tube
+    double length       = 0.6;            // cylinder, hexagonal prism: along z
+    Point size          = Point(1, 1, 1); // box
 
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);

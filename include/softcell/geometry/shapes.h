@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Bodies given by a formula: box, cylinder, sphere, torus and hexagonal prism.
+// Bodies given by a formula: box, cylinder, sphere, hollow sphere, torus and hexagonal prism.
 #pragma once
 
 #include <softcell/geometry/body.h>
@@ -12,7 +12,7 @@ namespace softcell
   // corner at the origin. Box classification is exact, and a box flush with the boundary counts as
   // inside or outside, not as cut. The vertices of surface() lie on the true boundary; its area and
   // volume fall short of the true ones by less than 1e-3 (relative), those of the box and the
-  // hexagonal prism not at all.
+  // hexagonal prism not at all; on_boundary() makes up for that.
 
   /// [0, size]. Patches as deal.II numbers them: 0 and 1 at the lower and upper x, 2 and 3 y, 4 and
   /// 5 z.
@@ -28,6 +28,10 @@ namespace softcell
   /// The ball around (0, 0, radius). One patch. The filled volume of a box is good to 1e-9 of the
   /// box's volume.
   std::unique_ptr<Body> make_sphere(double radius);
+
+  /// That ball less the ball of `inner_radius` (< radius) about its centre. Patches: 0 outside,
+  /// 1 inside.
+  std::unique_ptr<Body> make_hollow_sphere(double radius, double inner_radius);
 
   /// The points within `tube_radius` of the circle of `ring_radius` (> tube_radius) about the z
   /// axis at z = tube_radius. One patch. The filled volume of a box is good to 1e-9 of the box's
