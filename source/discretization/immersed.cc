@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Finite cell, weighted cell and sparse grid: their cells and patches.
+// Finite cell, weighted cell, moment fitting and sparse grid: their cells and patches.
 
 #include <softcell/discretization/immersed.h>
 
@@ -22,12 +22,6 @@ namespace softcell
         ++result;
       return result;
     }
-
-    // What a cut cell costs relative to a full one: FC has about 4^levels leaves.
-    double cut_work(const CutRule &rule, const CutParameters &cut)
-    {
-      return rule.has_cell_points() ? 1 : std::pow(4., cut.levels);
-    }
   } // namespace
 
   Immersed::Immersed(const std::string &rule,
@@ -46,7 +40,7 @@ namespace softcell
     gauss_points_  = gauss.get_points();
     gauss_weights_ = gauss.get_weights();
 
-    const BackgroundGrid grid(grid_parameters, body, cut_work(*rule_, cut), communicator);
+    const BackgroundGrid grid(grid_parameters, body, rule_->work(), communicator);
     lattice_                                      = grid.lattice();
     coarsest_size_                                = grid.coarsest_size();
     const std::vector<BackgroundGrid::Cell> taken = take_cells(grid, communicator);

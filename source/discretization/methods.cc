@@ -13,11 +13,12 @@ namespace softcell
     std::string names;
     for (const std::string &name : method_names())
       names += (names.empty() ? "" : "|") + name;
-    prm.add_parameter("Method", method,
-                      "How displacements are represented and integrated: hexahedra of a background "
-                      "grid that the body cuts (finite cell, weighted cell, sparse grid), or a "
-                      "conforming mesh (tetrahedra; hexahedra of a box or a cylinder).",
-                      dealii::Patterns::Selection(names));
+    prm.add_parameter(
+      "Method", method,
+      "How displacements are represented and integrated: hexahedra of a background "
+      "grid that the body cuts (finite cell, weighted cell, moment fitting, sparse grid), or a "
+      "conforming mesh (tetrahedra; hexahedra of a box or a cylinder).",
+      dealii::Patterns::Selection(names));
     prm.add_parameter("Degree", degree, "Degree of the shape functions; 1 or 2 for tetrahedra.",
                       dealii::Patterns::Integer(1, 8));
     grid.add_parameters(prm);
@@ -35,7 +36,7 @@ namespace softcell
 
   bool has_cut_levels(const std::string &method)
   {
-    return method == "finite cell" || method == "weighted cell";
+    return method == "finite cell" || method == "weighted cell" || method == "moment fitting";
   }
 
   std::unique_ptr<Discretization> make_discretization(const DiscretizationParameters &parameters,

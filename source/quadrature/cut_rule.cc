@@ -5,6 +5,7 @@
 
 #include <softcell/base/exceptions.h>
 #include <softcell/quadrature/finite_cell.h>
+#include <softcell/quadrature/moment_fitting.h>
 #include <softcell/quadrature/octree.h>
 #include <softcell/quadrature/weighted_cell.h>
 
@@ -55,6 +56,12 @@ namespace softcell
         {"weighted cell",
          [](CutParameters p, unsigned int degree, const Body &body) -> std::unique_ptr<CutRule> {
            return std::make_unique<WeightedCell>(p, degree, body);
+         }},
+        {"moment fitting",
+         [](CutParameters p, unsigned int degree, const Body &body) -> std::unique_ptr<CutRule> {
+           if (p.levels == 0)
+             return std::make_unique<WeightedCell>(p, degree, body);
+           return std::make_unique<MomentFitting>(p, degree, body);
          }},
         {"sparse grid",
          [](CutParameters p, unsigned int degree, const Body &body) -> std::unique_ptr<CutRule> {

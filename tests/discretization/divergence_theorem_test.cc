@@ -187,6 +187,15 @@ namespace softcell
     EXPECT_LT(sparse.volume, body.volume() + sparse.size.cut_cells * h * h * h);
   }
 
+  /// In each cell the integrals of the shapes' gradients are those of FiniteCell.
+  TEST_P(DivergenceTheorem, HoldsForMomentFittingAsForFiniteCell)
+  {
+    const Sums few = sums_of("moment fitting", 1, 2), many = sums_of("finite cell", 1, 2);
+    EXPECT_NEAR(few.volume, many.volume, 1e-9 * many.volume);
+    EXPECT_NEAR(few.defect, many.defect, 1e-6);
+    EXPECT_LT(few.size.integration_points, 8 * few.size.cells + 1);
+  }
+
   INSTANTIATE_TEST_SUITE_P(
     Bodies,
     DivergenceTheorem,

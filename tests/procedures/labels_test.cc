@@ -48,6 +48,7 @@ namespace softcell
     for (const Method &method : {Method{"finite cell", 1},
                                  {"finite cell", 2},
                                  {"weighted cell", 1},
+                                 {"moment fitting", 1},
                                  {"sparse grid", 1},
                                  {"tetrahedra", 1},
                                  {"tetrahedra", 2},

@@ -181,6 +181,17 @@ namespace softcell
     }
   }
 
+  /// The stiffness of FiniteCell is that of its eight points, but for a few cells whose moments
+  /// eight points do not meet.
+  TEST(PatchTest, moment_fitting_passes_it_as_finite_cell_does)
+  {
+    for (const double scale : {1., 1.13})
+    {
+      const double finite = gradient_error({"finite cell", 1}, 4, 3, scale);
+      EXPECT_NEAR(gradient_error({"moment fitting", 1}, 4, 3, scale), finite, 0.01 * finite);
+    }
+  }
+
   /// The points of a weighted cell stay where they are however it is cut. The errors are those of a
   /// separate program, in NumPy, that samples the octants and the sides finely, up to what levels
   /// leave of the volume. The documentation of WeightedCell states them.

@@ -135,6 +135,8 @@ BAD_INPUTS = [
      ["Loads/base", "Loads/top", "0.1 m along z"]),
     ("levels that no method has", ["Study/Cut levels = 1, 2", "Discretization/Method = sparse grid"], None,
      ["Study/Cut levels", "1, 2"]),
+    ("degree that moment fitting does not have", ["Discretization/Method = moment fitting", "Discretization/Degree = 4"],
+     None, ["Discretization/Degree = 4", "3", "finite cell"]),
     ("the same case twice", ["Study/Cells = 2, 2"], None, ["Study", "n2", "twice"]),
     ("case that is no number", ["Study/Cells = 2, many"], None, ["Study/Cells", "many", "whole number"]),
     ("unknown method in a study", ["Study/Methods = weighted cell, finite sell"], None,

@@ -104,7 +104,7 @@ def bad_input(folder):
 def ranks(folder):
     """One, two and three ranks give the same row to 1e-8."""
     (folder / "bar.prm").write_text(BAR)
-    for method in ("weighted cell", "finite cell", "sparse grid", "tetrahedra", "hexahedra"):
+    for method in ("weighted cell", "finite cell", "moment fitting", "sparse grid", "tetrahedra", "hexahedra"):
         results = []
         for n in (1, 2, 3):
             status, out, error = softcell("bar.prm", "--set", f"Discretization/Method = {method}", "--output",
@@ -199,6 +199,14 @@ def studies(folder):
     for n, bound in ((4, 0.05), (8, 0.01)) if bending else ():
         tips = [float(bending[f"{method}_n{n}_l1"]["tip_uy"]) for method in ("finite_cell", "weighted_cell")]
         check(abs(tips[1] / tips[0] - 1) < bound, f"bending, {n} cells: {tips}")
+    rules = study("cut_cell_rules", "Study/Cells = 4, 8", "Study/Cut levels = 2", "Study/Reference = ")
+    for n in (4, 8) if rules else ():
+        finite, weighted, fitted = (rules[f"{method}_n{n}_l2"] for method in ("finite_cell", "weighted_cell", "moment_fitting"))
+        for column in ("tip_uy", "strain_energy"):
+            error = abs(float(fitted[column]) / float(finite[column]) - 1)
+            check(error < 5e-4, f"moment fitting, {n} cells: {column} is {error} from that of the finite cell")
+        check(int(fitted["integration_points"]) <= int(weighted["integration_points"]),
+              f"moment fitting, {n} cells: {fitted['integration_points']} points")
     for case, row in study("cylinder_stretching", "Study/Cells = 4", "Study/Cut levels = 0, 2").items():
         check(int(row["load_steps"]) <= 3, f"stretching, {case}: {row['load_steps']} load steps")
 
@@ -213,7 +221,7 @@ def organ(folder):
                 "Solver/Linear tolerance = 1e-12")
     arguments = [word for setting in settings for word in ("--set", setting)]
     # Of the volume; tetrahedra cut corners, the sparse grid counts cut cells as full.
-    bounds = {"finite cell": 1e-3, "weighted cell": 1e-3, "tetrahedra": 0.05, "sparse grid": None}
+    bounds = {"finite cell": 1e-3, "weighted cell": 1e-3, "moment fitting": 1e-3, "tetrahedra": 0.05, "sparse grid": None}
     for method, tolerance in bounds.items():
         results = []
         for n in (1, 3):

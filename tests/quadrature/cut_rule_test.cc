@@ -14,7 +14,7 @@ namespace softcell
   {
     const Ball body(1);
     const Box cell({Point(0.5, 0.5, 0), Point(1, 1, 1)}), beyond({Point(1, 1, 1), Point(2, 2, 2)});
-    for (const char *name : {"finite cell", "weighted cell", "sparse grid"})
+    for (const char *name : {"finite cell", "weighted cell", "moment fitting", "sparse grid"})
     {
       const auto rule = make_cut_rule(name, {0}, 1, body);
       EXPECT_DOUBLE_EQ(rule->add(cell), cell.volume());

@@ -17,8 +17,8 @@
 
 namespace softcell
 {
-  /// Finite cell, weighted cell, sparse grid: hexahedra of a background grid whose cut cells are
-  /// integrated by a cut-cell rule.
+  /// Finite cell, weighted cell, moment fitting, sparse grid: hexahedra of a background grid whose
+  /// cut cells are integrated by a cut-cell rule.
   ///
   /// Active are the cells of which the body, or the rule, fills something; only their nodes carry
   /// unknowns. Full cells of a size share one table of shapes and one set of weights; a rule with

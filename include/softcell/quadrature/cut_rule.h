@@ -50,13 +50,19 @@ namespace softcell
     /// then all cells share one table of shapes and differ only in their weights.
     virtual bool has_cell_points() const = 0;
 
+    /// What a cut cell costs relative to a full one whenever a tangent is assembled.
+    virtual double work() const
+    {
+      return 1;
+    }
+
     /// The points of cell number `index`. Reuses the memory of `result`. If has_cell_points(), only
     /// weights and labels are filled.
     virtual void points(unsigned int index, CutPoints &result) const = 0;
   };
 
   /// The rules by the names that a parameter file gives them ("finite cell", "weighted cell",
-  /// "sparse grid").
+  /// "moment fitting", "sparse grid").
   std::vector<std::string> cut_rule_names();
 
   /// @param degree of the cell's shape functions: its own Gauss points are (degree + 1)^3.

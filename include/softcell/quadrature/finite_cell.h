@@ -8,6 +8,7 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace softcell
@@ -29,6 +30,10 @@ namespace softcell
     bool has_cell_points() const override
     {
       return false;
+    }
+    double work() const override
+    {
+      return std::pow(4., parameters_.levels);
     }
     void points(unsigned int index, CutPoints &result) const override;
 
