@@ -76,6 +76,8 @@ namespace softcell
       void write_record(const std::string &status, const std::string &message);
       void say_what_is_left();
       unsigned int n_failed() const;
+      /// Is the reference still to be solved, for a case that is?
+      bool is_needed(unsigned int reference) const;
 
       Console &console_;
       Parameters parameters_;
@@ -108,6 +110,13 @@ namespace softcell
       }
     }
 
+    bool is_thrown_on_all(const std::exception &error)
+    {
+      return dynamic_cast<const BadInput *>(&error) != nullptr ||
+             dynamic_cast<const NotConverged *>(&error) != nullptr ||
+             dynamic_cast<const InvertedPoint *>(&error) != nullptr;
+    }
+
     Work work_of(const Parameters &parameters, const double points, const double unknowns)
     {
       return {parameters.discretization.method + std::to_string(parameters.discretization.degree),
@@ -128,8 +137,6 @@ namespace softcell
       std::stable_sort(cases_.begin(), cases_.end(), [](const Case &one, const Case &other) {
         return one.reference < other.reference;
       });
-      if (references_.size() == 1)
-        references_[0].name = "reference";
 
       folder_              = parameters_.output.directory.empty()
                                ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
@@ -219,20 +226,22 @@ namespace softcell
 
     void Study::resume()
     {
-      const auto find = [&](StudyRun &run, const std::string &reference) {
-        // a case without a folder of its own is always solved
+      const auto find = [&](StudyRun &run, const std::string &reference, const char *const file) {
         const std::filesystem::path folder = folder_of(run);
-        recall(run, parameters_.study.resume && folder != folder_ ? folder : "", record_.ranks,
-               reference);
+        std::error_code error;
+        // a case without a folder of its own is always solved
+        const bool is_there = parameters_.study.resume && folder != folder_ &&
+                              std::filesystem::exists(folder / file, error);
+        recall(run, is_there ? folder : "", record_.ranks, reference);
         if (run.is_solved())
           time_left_.add(
             work_of(run.parameters, run.row.number("integration_points"), run.row.number("dofs")),
             run.row.number("total_s"));
       };
       for (StudyRun &reference : references_)
-        find(reference, "");
+        find(reference, "", "checkpoint.h5");
       for (Case &one : cases_)
-        find(one, references_.empty() ? "" : references_[one.reference].fingerprint);
+        find(one, references_.empty() ? "" : references_[one.reference].fingerprint, "results.csv");
       if (const auto n = std::count_if(cases_.begin(), cases_.end(),
                                        [](const Case &one) { return one.is_solved(); });
           n > 0)
@@ -248,7 +257,7 @@ namespace softcell
         if (!one.is_solved())
           check_memory(one.parameters, body_of(one.parameters), MPI_COMM_WORLD);
       for (unsigned int i = references_.size(); i-- > 0;) // the first one stays, it is next
-        if (!references_[i].is_solved())
+        if (is_needed(i))
         {
           reference_       = build(references_[i], "Check of ");
           reference_index_ = i;
@@ -301,6 +310,14 @@ namespace softcell
         make_folder(folder_.string());
         write_run_record((folder_ / "run.json").string(), record_);
       });
+    }
+
+    bool Study::is_needed(const unsigned int reference) const
+    {
+      return !references_[reference].is_solved() &&
+             std::any_of(cases_.begin(), cases_.end(), [&](const Case &one) {
+               return one.reference == reference && !one.is_solved();
+             });
     }
 
     unsigned int Study::n_failed() const
@@ -358,17 +375,13 @@ namespace softcell
               provide_reference(one);
             solve_case(one, what);
           }
-          catch (const BadInput &error)
+          catch (const std::exception &error)
           {
-            if (has_one_run())
-              throw;
-            fail(one, error.what());
-          }
-          catch (const std::bad_alloc &)
-          {
-            if (has_one_run() || record_.ranks > 1) // the others may be waiting for this one
-              throw;
-            fail(one, "out of memory; use fewer cells or more machines");
+            if (has_one_run() || (record_.ranks > 1 && !is_thrown_on_all(error)))
+              throw; // the other ranks may be waiting for this one
+            fail(one, dynamic_cast<const std::bad_alloc *>(&error) != nullptr
+                        ? "out of memory; use fewer cells or more machines"
+                        : error.what());
           }
           say_what_is_left();
         }
@@ -445,6 +458,8 @@ namespace softcell
       one.row.set("case", one.name);
       one.row.set("method", one.parameters.discretization.method);
       one.row.set("degree", one.parameters.discretization.degree);
+      if (has_cut_levels(one.parameters.discretization.method))
+        one.row.set("cut_levels", one.parameters.discretization.cut.levels);
       one.row.set("converged", false);
       for (const auto &[name, label] : one.labels)
         one.row.set(name, label);
@@ -490,9 +505,12 @@ namespace softcell
         seconds += time_left_.guess(run.work);
       };
       std::for_each(cases_.begin(), cases_.end(), add_run);
-      std::for_each(references_.begin(), references_.end(), add_run);
+      for (unsigned int i = 0; i < references_.size(); ++i)
+        if (is_needed(i))
+          add_run(references_[i]);
       if (n > 0 && std::isfinite(seconds))
-        console_.say("  " + std::to_string(n) + " runs left, about " + duration(seconds));
+        console_.say("  " + std::to_string(n) + (n == 1 ? " run" : " runs") + " left, about " +
+                     duration(seconds));
     }
   } // namespace
 

@@ -66,8 +66,13 @@ def resume(folder):
     check(solved(out) == [] and list(fewer) == CASES[::2], f"a smaller study: {solved(out)} {list(fewer)}")
     out, _ = study(folder, to="killed")
     check(solved(out) == [] and (folder / "killed" / "results.csv").read_bytes() == table, "nothing is left to do")
+    new = ["weighted_cell_n5", "sparse_grid_n5"]
     out, more = study(folder, "Study/Cells = 3, 4, 5", to="killed")
-    check(solved(out) == ["weighted_cell_n5", "sparse_grid_n5"] and len(more) == 6, f"a larger study: {solved(out)}")
+    check(solved(out) == new and len(more) == 6, f"a larger study: {solved(out)}")
+    (folder / "killed" / "reference" / "checkpoint.h5").unlink()
+    (folder / "killed" / new[1] / "results.csv").unlink()
+    out, _ = study(folder, "Study/Cells = 3, 4, 5", to="killed")
+    check(solved(out) == ["reference", new[1]], f"what someone removed is solved again: {solved(out)}")
     for settings in (["Material/Poisson ratio = 0.35"], ["Study/Resume = false"]):
         out, _ = study(folder, *settings, to="killed")
         check(solved(out) == ["reference", *CASES], f"{settings}: all is solved again: {solved(out)}")
