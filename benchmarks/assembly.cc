@@ -33,7 +33,7 @@ namespace
   }
 
   /// Arguments: cells per axis, Gauss points per axis, LatticePatches.
-  void tangent(benchmark::State &state, const char *model)
+  void tangent(benchmark::State &state, const char *model, const bool has_projection = false)
   {
     const unsigned int n        = state.range(0),
                        n_points = state.range(1) * state.range(1) * state.range(1);
@@ -41,7 +41,7 @@ namespace
     for (UnitCells::Cell &cell : lattice.cells)
       for (unsigned int q = 0; q < n_points; ++q)
         cell.weights[q] *= 0.1 + 0.9 * q / n_points;
-    const Elasticity elasticity(lattice, {Material(model, 5000, 0.3)});
+    const Elasticity elasticity(lattice, {Material(model, 5000, 0.3)}, has_projection);
     const Vector u = bent(lattice);
     BlockMatrix K(lattice.partitioner(), elasticity.couplings());
     for (auto _ : state)
@@ -71,7 +71,13 @@ namespace
     ->Args({10, 2, congruent})
     ->Args({30, 2, congruent})
     ->Unit(benchmark::kMillisecond);
+  BENCHMARK_CAPTURE(tangent, weighted_cell_projected, "Neo-Hookean", true)
+    ->Args({30, 2, congruent})
+    ->Unit(benchmark::kMillisecond);
   BENCHMARK_CAPTURE(tangent, finite_cell_neo_hookean, "Neo-Hookean")
+    ->Args({5, 8, own_tables})
+    ->Unit(benchmark::kMillisecond);
+  BENCHMARK_CAPTURE(tangent, finite_cell_projected, "Neo-Hookean", true)
     ->Args({5, 8, own_tables})
     ->Unit(benchmark::kMillisecond);
   BENCHMARK_CAPTURE(tangent, weighted_cell_saint_venant_kirchhoff, "Saint-Venant-Kirchhoff")

@@ -21,6 +21,11 @@ namespace softcell
       dealii::Patterns::Selection(names));
     prm.add_parameter("Degree", degree, "Degree of the shape functions; 1 or 2 for tetrahedra.",
                       dealii::Patterns::Integer(1, 8));
+    prm.add_parameter("Volumetric projection", projection,
+                      "Take from the energy of volume changes in each cell only the part of one "
+                      "degree less than the shape functions, at degree 1 that of the cell's mean "
+                      "change (mean dilatation, B-bar): nearly incompressible materials then do "
+                      "not lock. It changes nothing for tetrahedra.");
     grid.add_parameters(prm);
     cut.add_parameters(prm);
     mesh.add_parameters(prm);

@@ -4,6 +4,7 @@
 #include <softcell/loads/nitsche.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/discretization/orthonormal_polynomials.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -26,48 +27,6 @@ namespace softcell
       return F;
     }
 
-    /// Polynomials up to a degree at points, the first of which have weights: orthonormal there.
-    /// Those that the weighted points can hardly tell from others are left out.
-    std::vector<std::vector<double>> orthonormal_polynomials(const std::vector<Point> &points,
-                                                             const View<const double> weights,
-                                                             const unsigned int degree,
-                                                             const double scale)
-    {
-      const auto product = [&](const std::vector<double> &a, const std::vector<double> &b) {
-        double sum = 0;
-        for (unsigned int q = 0; q < weights.size(); ++q)
-          sum += weights[q] * a[q] * b[q];
-        return sum;
-      };
-      std::vector<std::vector<double>> basis;
-      for (unsigned int total = 0; total <= degree; ++total)
-        for (unsigned int i = 0; i <= total; ++i)
-          for (unsigned int j = 0; i + j <= total; ++j)
-          {
-            std::vector<double> next;
-            for (const Point &X : points)
-            {
-              const Direction x = (X - points[0]) / scale;
-              next.push_back(std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], total - i - j));
-            }
-            const double all = product(next, next);
-            for (unsigned int repeat = 0; repeat < 2; ++repeat) // against rounding
-              for (const std::vector<double> &one : basis)
-              {
-                const double part = product(next, one);
-                for (unsigned int q = 0; q < next.size(); ++q)
-                  next[q] -= part * one[q];
-              }
-            const double rest = product(next, next);
-            if (rest <= 1e-6 * all)
-              continue;
-            for (double &value : next)
-              value /= std::sqrt(rest);
-            basis.push_back(std::move(next));
-          }
-      return basis;
-    }
-
     /// Projects the gradients of a surface's shapes as Nitsche says.
     /// @return the constant C of this piece. Units: 1/m
     double project_gradients(const Discretization &discretization, SurfacePatch &surface)
@@ -81,9 +40,9 @@ namespace softcell
       const unsigned int n = 3 * cell.n_nodes(), n_cell = cell.n_points();
       std::fill(surface.shapes.gradients.begin(), surface.shapes.gradients.end(), 0.);
       double constant = 0;
-      std::vector<double> moment(n);
-      for (const std::vector<double> &phi : orthonormal_polynomials(
-             points, cell.weights, discretization.degree() - 1, surface.cell_size))
+      std::vector<double> moment(n), polynomials;
+      orthonormal_polynomials(points, cell.weights, discretization.degree() - 1, polynomials);
+      for (auto phi = polynomials.begin(); phi != polynomials.end(); phi += points.size())
       {
         std::fill(moment.begin(), moment.end(), 0.);
         for (unsigned int q = 0; q < n_cell; ++q)

@@ -3,7 +3,7 @@
 
 #include <softcell/operators/elasticity.h>
 
-#include "patch_kernels.h"
+#include "volumetric_projection.h"
 
 #include <softcell/base/exceptions.h>
 
@@ -11,41 +11,46 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace softcell
 {
   namespace
   {
-    /// Calls visit(law, point, F) for every point of the patch that has a weight and whose F the
-    /// law accepts. Returns the number of the others that have a weight.
-    template <class Visit>
-    unsigned int for_each_point(const DeformedPatch &deformed,
-                                const std::vector<Material> &materials,
-                                const Visit &visit)
+    /// Calls visit(law, point, F) for the points of patches, with or without projection.
+    class Points
     {
-      const Patch &patch      = deformed.patch();
-      unsigned int n_inverted = 0;
-      for (unsigned int begin = 0, end; begin < patch.n_points(); begin = end)
+    public:
+      Points(const Discretization &discretization,
+             const std::vector<Material> &materials,
+             const bool has_projection)
+          : materials_(materials)
       {
-        const unsigned int label = patch.label(begin);
-        AssertIndexRange(label, materials.size());
-        end = patch.labels.size() == 1 ? patch.n_points() : begin + 1;
-        while (end < patch.n_points() && patch.label(end) == label)
-          ++end;
-        materials[label].visit([&](const auto &law) {
-          for (unsigned int point = begin; point < end; ++point)
-            if (patch.weights[point] != 0)
-            {
-              const Matrix3<double> F = deformed.deformation_gradient(point);
-              if (law.is_admissible(determinant(F)))
-                visit(law, point, F);
-              else
-                ++n_inverted;
-            }
-        });
+        if (has_projection)
+          projection_.emplace(discretization, materials);
       }
-      return n_inverted;
-    }
+
+      /// Returns the number of inverted points of patch i.
+      template <class Visit>
+      unsigned int visit(const unsigned int i, const DeformedPatch &deformed, const Visit &visit)
+      {
+        if (projection_)
+          return projection_->for_each_point(i, deformed, visit);
+        return for_each_point(
+          deformed.patch(), materials_,
+          [&](const unsigned int point) { return deformed.deformation_gradient(point); }, visit);
+      }
+
+      void add_to_tangent(const DeformedPatch &deformed, PatchTangent &tangent)
+      {
+        if (projection_)
+          projection_->add_to_tangent(deformed, tangent);
+      }
+
+    private:
+      const std::vector<Material> &materials_;
+      std::optional<VolumetricProjection> projection_;
+    };
 
     void throw_if_inverted(const unsigned int n_inverted, const MPI_Comm communicator)
     {
@@ -65,8 +70,12 @@ namespace softcell
     }
   } // namespace
 
-  Elasticity::Elasticity(const Discretization &discretization, std::vector<Material> materials)
-      : discretization_(discretization), materials_(std::move(materials))
+  Elasticity::Elasticity(const Discretization &discretization,
+                         std::vector<Material> materials,
+                         const bool has_projection)
+      : discretization_(discretization),
+        materials_(std::move(materials)),
+        has_projection_(has_projection)
   {
   }
 
@@ -84,12 +93,12 @@ namespace softcell
     double energy           = 0;
     unsigned int n_inverted = 0;
     DeformedPatch deformed;
-    for_each_patch([&](unsigned int, const Patch &patch) {
+    Points points(discretization_, materials_, has_projection_);
+    for_each_patch([&](const unsigned int i, const Patch &patch) {
       deformed.reinit(patch, u);
-      n_inverted +=
-        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
-          energy += patch.weights[point] * law.energy(F);
-        });
+      n_inverted += points.visit(i, deformed, [&](const auto &law, unsigned int point, auto &F) {
+        energy += patch.weights[point] * law.energy(F);
+      });
     });
     throw_if_inverted(n_inverted, discretization_.communicator());
     return dealii::Utilities::MPI::sum(energy, discretization_.communicator());
@@ -100,13 +109,13 @@ namespace softcell
     unsigned int n_inverted = 0;
     DeformedPatch deformed;
     PatchResidual residual;
-    for_each_patch([&](unsigned int, const Patch &patch) {
+    Points points(discretization_, materials_, has_projection_);
+    for_each_patch([&](const unsigned int i, const Patch &patch) {
       deformed.reinit(patch, u);
       residual.reinit(deformed);
-      n_inverted +=
-        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
-          residual.add(law, deformed, point, F);
-        });
+      n_inverted += points.visit(i, deformed, [&](const auto &law, unsigned int point, auto &F) {
+        residual.add(law, deformed, point, F);
+      });
       residual.scatter(patch.nodes, r);
     });
     throw_if_inverted(n_inverted, discretization_.communicator());
@@ -117,13 +126,14 @@ namespace softcell
     unsigned int n_inverted = 0;
     DeformedPatch deformed;
     PatchTangent tangent;
-    for_each_patch([&](unsigned int, const Patch &patch) {
+    Points points(discretization_, materials_, has_projection_);
+    for_each_patch([&](const unsigned int i, const Patch &patch) {
       deformed.reinit(patch, u);
       tangent.reinit(deformed);
-      n_inverted +=
-        for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
-          tangent.add(law, deformed, point, F);
-        });
+      n_inverted += points.visit(i, deformed, [&](const auto &law, unsigned int point, auto &F) {
+        tangent.add(law, deformed, point, F);
+      });
+      points.add_to_tangent(deformed, tangent);
       K.add(patch.nodes, tangent.values());
     });
     throw_if_inverted(n_inverted, discretization_.communicator());
@@ -143,6 +153,7 @@ namespace softcell
     const unsigned int n = discretization_.n_patches();
     PatchAverages averages{std::vector<double>(n, 0.), std::vector<double>(n, 1.)};
     DeformedPatch deformed;
+    Points points(discretization_, materials_, has_projection_);
     for_each_patch([&](const unsigned int i, const Patch &patch) {
       double volume = 0, stress = 0, deformed_volume = 0;
       deformed.reinit(patch, u);
@@ -152,7 +163,7 @@ namespace softcell
           volume += weight;
           deformed_volume += weight * determinant(deformed.deformation_gradient(point));
         }
-      for_each_point(deformed, materials_, [&](const auto &law, unsigned int point, auto &F) {
+      points.visit(i, deformed, [&](const auto &law, unsigned int point, auto &F) {
         stress += patch.weights[point] * von_mises(law.cauchy_stress(F));
       });
       if (volume != 0)

@@ -126,9 +126,15 @@ namespace softcell
           r.begin()[3 * nodes[i] + a] += r_[a * n_padded_ + i];
     }
 
+    /// (3, n_padded), 0 for nodes that only fill up.
+    const PackedArray &values() const
+    {
+      return r_;
+    }
+
   private:
     unsigned int n_padded_ = 0;
-    PackedArray r_; // (3, n_padded)
+    PackedArray r_;
   };
 
   /// int dN_i/dX . dP(e_b (x) dN_j/dX) over a patch.
@@ -183,6 +189,21 @@ namespace softcell
       }
       if (++n_points_ == batch)
         contract();
+    }
+
+    /// Adds factor r r^T.
+    void add_product(const double factor, const PackedArray &r)
+    {
+      for (unsigned int b = 0; b < 3; ++b)
+        for (unsigned int a = 0; a <= b; ++a)
+          for (unsigned int i = 0; i < n_; ++i)
+          {
+            const double r_i     = factor * r[a * n_padded_ + i];
+            double *const values = row(a, i, b);
+            for (unsigned int j = 0; j < n_padded_; j += width)
+              (load(values + j) + r_i * load(&r[b * n_padded_ + j]))
+                .copy_to(values + j, stdx::vector_aligned);
+          }
     }
 
     /// (3, n, 3, n): row component, row node, column component, column node. It ends the

@@ -28,11 +28,12 @@ namespace softcell
 
   Model::Model(const Discretization &discretization,
                const std::vector<Material> &materials,
+               const bool has_projection,
                const Loads &loads,
                const LinearSolverParameters &linear_solver,
                Timers &timers)
       : discretization_(discretization),
-        elasticity_(discretization, materials),
+        elasticity_(discretization, materials, has_projection),
         stabilization_(discretization, materials),
         loads_(loads),
         tangent_(discretization.partitioner(), couplings(elasticity_, stabilization_, loads)),

@@ -57,8 +57,8 @@ namespace softcell
     prm.add_parameter("Young modulus", young_modulus,
                       "Units: Pa. Greater than 0; soft organs have 1e3 to 1e5.");
     prm.add_parameter("Poisson ratio", poisson_ratio,
-                      "Units: 1. Below 0.5; from 0.49 on trilinear cells and linear tetrahedra "
-                      "come out too stiff.");
+                      "Units: 1. Below 0.5; near it trilinear cells come out too stiff without "
+                      "'Discretization/Volumetric projection', and linear tetrahedra in any case.");
     prm.add_parameter("Density", density, "Units: kg/m^3. Needed for the weight only.");
   }
 

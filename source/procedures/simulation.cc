@@ -70,6 +70,26 @@ namespace softcell
       return points;
     }
 
+    /// What a user should know of cells that nearly incompressible materials make too stiff; empty
+    /// if there are none.
+    std::string locking(const DiscretizationParameters &parameters,
+                        const std::vector<Material> &materials)
+    {
+      double largest = 0;
+      for (const Material &material : materials)
+        largest = std::max(largest, material.poisson_ratio());
+      const bool is_tetrahedra = parameters.method == "tetrahedra";
+      if (largest < 0.485 || parameters.degree > 1 || (parameters.projection && !is_tetrahedra))
+        return "";
+      std::ostringstream text;
+      text << "A Poisson ratio of " << largest << " makes "
+           << (is_tetrahedra ? "tetrahedra" : "cells")
+           << " of degree 1 too stiff (locking); set 'Discretization/Degree = 2'";
+      if (!is_tetrahedra)
+        text << " or 'Discretization/Volumetric projection = true'";
+      return text.str() + '.';
+    }
+
     std::string in_digits(const double value, const int digits = 2)
     {
       std::ostringstream text;
@@ -110,15 +130,20 @@ namespace softcell
     check_memory(parameters, body, MPI_COMM_WORLD);
 
     const Timers::Scope scope(timers_, "setup");
-    std::vector<std::string> remarks;
     discretization_ = make_discretization(parameters.discretization, parameters.geometry, body,
-                                          MPI_COMM_WORLD, remarks);
+                                          MPI_COMM_WORLD, remarks_);
     size_           = discretization_->size();
     console_.say("  " + std::to_string(size_.cells) + " cells, " + std::to_string(size_.cut_cells) +
                  " of them cut, " + std::to_string(size_.unknowns) + " unknowns, " +
                  std::to_string(size_.integration_points) + " integration points");
-    for (const std::string &remark : remarks)
+    for (const std::string &remark : remarks_)
       console_.say("  " + remark);
+    if (const std::string warning = locking(parameters.discretization, materials_);
+        !warning.empty())
+    {
+      console_.warn(warning);
+      remarks_.push_back(warning);
+    }
 
     loads_ = std::make_unique<Loads>(
       make_loads(parameters.loads, loads, regions_, *discretization_, body.surface(), materials_));
@@ -126,8 +151,9 @@ namespace softcell
       throw BadInput("Loads: " + loads_->free_motions);
     displacement_ = discretization_->make_vector();
     check_probes();
-    model_ = std::make_unique<Model>(*discretization_, materials_, *loads_,
-                                     parameters.linear_solver, timers_);
+    model_ =
+      std::make_unique<Model>(*discretization_, materials_, parameters.discretization.projection,
+                              *loads_, parameters.linear_solver, timers_);
     if (!parameters.procedure.start_from.empty())
       start_from(parameters.procedure.start_from);
   }

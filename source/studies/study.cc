@@ -434,6 +434,8 @@ namespace softcell
         add_errors(error_of(one, *simulation), row);
       for (const auto &[name, label] : one.labels)
         row.set(name, label);
+      for (const std::string &remark : simulation->remarks())
+        record_.remarks.push_back(row.get("case") + ": " + remark);
       if (!is_solved)
       {
         console_.warn("Not converged: " + simulation->reason() + ".");

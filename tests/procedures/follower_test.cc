@@ -36,7 +36,7 @@ TEST(Follower, pressure_with_a_free_rim_converges_quadratically)
     const Loads loads =
       make_loads(p.loads, descriptions, regions, *bar, body->surface(), materials);
     Timers timers;
-    Model model(*bar, materials, loads, p.linear_solver, timers);
+    Model model(*bar, materials, false, loads, p.linear_solver, timers);
     model.set_load(1);
 
     Vector u = bar->make_vector();

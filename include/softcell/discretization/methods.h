@@ -21,6 +21,7 @@ namespace softcell
   {
     std::string method  = "weighted cell"; // a cut-cell rule, `hexahedra` or `tetrahedra`
     unsigned int degree = 1;               // of the shape functions
+    bool projection     = false;           // of the volumetric strain, on each patch
     GridParameters grid;
     CutParameters cut;
     MeshParameters mesh;

@@ -9,9 +9,14 @@
 //   linearisation(F)        the tangent at F: an object that turns dF into dP = (dP/dF) : dF,
 //                           for any dF or for a NodalGradient. dF may be a pack where F is a
 //                           scalar.
+//   volumetric_strain(F)    v, of which W has the part lambda/2 v^2. Units: 1
+//   volumetric_gradient(F)  dv/dF. Units: 1
 //   is_admissible(J)        whether all of these may be called where det F = J: a bool, or the
 //                           mask of a pack; false for NaN.
-// `Real` is the type of the parameters; F's numbers are Real, packs of Real or derivatives of Real.
+// first_piola_stress, cauchy_stress and linearisation also take a pressure p (Units: Pa) behind F,
+// which replaces lambda v: then they belong to W without its part lambda/2 v^2, and p v with p
+// fixed. `Real` is the type of the parameters; F's numbers are Real, packs of Real or derivatives
+// of Real.
 #pragma once
 
 #include <softcell/mechanics/linear_elastic.h>

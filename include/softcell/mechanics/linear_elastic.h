@@ -19,6 +19,19 @@ namespace softcell
       return J == J;
     }
 
+    /// tr e
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Number volumetric_strain(const Matrix3<Number> &F)
+    {
+      return trace(displacement_gradient(F));
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Matrix3<Number> volumetric_gradient(const Matrix3<Number> &)
+    {
+      return identity<Number>();
+    }
+
     template <class Number>
     SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
@@ -28,11 +41,17 @@ namespace softcell
     }
 
     template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
+                                                            const Number &pressure) const
+    {
+      return pressure * identity<Number>() + 2 * mu * small_strain(F);
+    }
+
+    template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
     {
-      const Matrix3<Number> e = small_strain(F);
-      const Number pressure   = lambda * trace(e);
-      return pressure * identity<Number>() + 2 * mu * e;
+      const Number pressure = lambda * volumetric_strain(F);
+      return first_piola_stress(F, pressure);
     }
 
     template <class Number>
@@ -45,6 +64,13 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return first_piola_stress(F);
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
+                                                       const Number &pressure) const
+    {
+      return first_piola_stress(F, pressure);
     }
 
     /// dP = lambda tr(dF) I + mu (dF + dF^T), whatever F is.
@@ -79,6 +105,12 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Linearisation linearisation(const Matrix3<Number> &) const
     {
       return {mu, lambda};
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Linearisation linearisation(const Matrix3<Number> &, const Number &) const
+    {
+      return {mu, Real(0)};
     }
   };
 } // namespace softcell

@@ -40,6 +40,11 @@ namespace softcell
       return visit([](const auto &law) { return law.lambda + 2 * law.mu; });
     }
 
+    double poisson_ratio() const
+    {
+      return visit([](const auto &law) { return law.lambda / (2 * (law.lambda + law.mu)); });
+    }
+
     /// Units: kg/m^3
     double density() const
     {

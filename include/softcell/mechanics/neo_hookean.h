@@ -20,24 +20,46 @@ namespace softcell
       return J > Number(0);
     }
 
+    /// ln J
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Number volumetric_strain(const Matrix3<Number> &F)
+    {
+      using std::log1p;
+      return log1p(volume_change(F));
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Matrix3<Number> volumetric_gradient(const Matrix3<Number> &F)
+    {
+      return transpose(inverse(F));
+    }
+
     template <class Number>
     SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
-      const Number ln_J = log_J(F);
+      const Number ln_J = volumetric_strain(F);
       return mu * (trace(green_lagrange_strain(F)) - ln_J) + lambda / 2 * ln_J * ln_J;
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
+                                                            const Number &pressure) const
+    {
+      const Number factor = pressure - mu;
+      return mu * F + factor * volumetric_gradient(F);
     }
 
     template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
     {
-      const Number pressure = lambda * log_J(F) - mu;
-      return mu * F + pressure * transpose(inverse(F));
+      const Number pressure = lambda * volumetric_strain(F);
+      return first_piola_stress(F, pressure);
     }
 
     template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
     {
-      const Number pressure = lambda * log_J(F) - mu;
+      const Number pressure = lambda * volumetric_strain(F) - mu;
       return mu * identity<Number>() + pressure * inverse(right_cauchy_green(F));
     }
 
@@ -45,6 +67,13 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return softcell::cauchy_stress(first_piola_stress(F), F);
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
+                                                       const Number &pressure) const
+    {
+      return softcell::cauchy_stress(first_piola_stress(F, pressure), F);
     }
 
     /// dP = mu dF + (mu - lambda ln J) F^-T dF^T F^-T + lambda (F^-T : dF) F^-T.
@@ -85,15 +114,14 @@ namespace softcell
     template <class Number>
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
     {
-      return {mu, lambda, mu - lambda * log_J(F), transpose(inverse(F))};
+      return {mu, lambda, mu - lambda * volumetric_strain(F), volumetric_gradient(F)};
     }
 
-  private:
     template <class Number>
-    SOFTCELL_HOST_DEVICE static Number log_J(const Matrix3<Number> &F)
+    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
+                                                             const Number &pressure) const
     {
-      using std::log1p;
-      return log1p(volume_change(F));
+      return {mu, Real(0), mu - pressure, volumetric_gradient(F)};
     }
   };
 } // namespace softcell

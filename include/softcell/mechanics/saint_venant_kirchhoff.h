@@ -19,6 +19,19 @@ namespace softcell
       return J > Number(0);
     }
 
+    /// tr E
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Number volumetric_strain(const Matrix3<Number> &F)
+    {
+      return trace(green_lagrange_strain(F));
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE static Matrix3<Number> volumetric_gradient(const Matrix3<Number> &F)
+    {
+      return F;
+    }
+
     template <class Number>
     SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
@@ -28,11 +41,24 @@ namespace softcell
     }
 
     template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F,
+                                                             const Number &pressure) const
+    {
+      return pressure * identity<Number>() + 2 * mu * green_lagrange_strain(F);
+    }
+
+    template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
     {
-      const Matrix3<Number> E = green_lagrange_strain(F);
-      const Number pressure   = lambda * trace(E);
-      return pressure * identity<Number>() + 2 * mu * E;
+      const Number pressure = lambda * volumetric_strain(F);
+      return second_piola_stress(F, pressure);
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
+                                                            const Number &pressure) const
+    {
+      return F * second_piola_stress(F, pressure);
     }
 
     template <class Number>
@@ -45,6 +71,13 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
     {
       return softcell::cauchy_stress(first_piola_stress(F), F);
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
+                                                       const Number &pressure) const
+    {
+      return softcell::cauchy_stress(first_piola_stress(F, pressure), F);
     }
 
     /// dP = dF S + F dS, dS = lambda tr(dE) I + 2 mu dE, dE = sym(F^T dF).
@@ -88,6 +121,13 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
     {
       return {mu, lambda, F, second_piola_stress(F), F * transpose(F)};
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
+                                                             const Number &pressure) const
+    {
+      return {mu, Real(0), F, second_piola_stress(F, pressure), F * transpose(F)};
     }
   };
 } // namespace softcell

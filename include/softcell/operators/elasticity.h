@@ -25,8 +25,13 @@ namespace softcell
   class Elasticity
   {
   public:
-    /// @param materials one per label.
-    Elasticity(const Discretization &discretization, std::vector<Material> materials);
+    /// @param materials      one per label.
+    /// @param has_projection whether the change of volume is projected on each patch onto
+    /// polynomials of one degree less than the shapes, at degree 1 onto its mean: nearly
+    /// incompressible materials then do not lock.
+    Elasticity(const Discretization &discretization,
+               std::vector<Material> materials,
+               bool has_projection = false);
 
     /// Units: J. @throws InvertedPoint
     double energy(const Vector &u) const;
@@ -57,5 +62,6 @@ namespace softcell
 
     const Discretization &discretization_;
     std::vector<Material> materials_;
+    bool has_projection_;
   };
 } // namespace softcell

@@ -24,9 +24,11 @@ namespace softcell
   class Model
   {
   public:
+    /// @param has_projection of the volumetric strain, see Elasticity.
     /// @param timers collects `assembly`, `preconditioner` and `linear solver`.
     Model(const Discretization &discretization,
           const std::vector<Material> &materials,
+          bool has_projection,
           const Loads &loads,
           const LinearSolverParameters &linear_solver,
           Timers &timers);

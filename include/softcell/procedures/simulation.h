@@ -52,6 +52,12 @@ namespace softcell
       return loads_->exact.get();
     }
 
+    /// What a user should know of the discretization and the material.
+    const std::vector<std::string> &remarks() const
+    {
+      return remarks_;
+    }
+
     /// How far outside all cells a point of the body may lie. Units: m
     double reach() const;
 
@@ -86,6 +92,7 @@ namespace softcell
     const Body &body_;
     Console &console_;
     mutable Timers timers_;
+    std::vector<std::string> remarks_;
     std::vector<Material> materials_;
     std::vector<Region> regions_;
     std::vector<Point> probes_;
