@@ -70,6 +70,12 @@ namespace softcell
       "Start from", start_from,
       "checkpoint.h5 of an earlier run on the same grid or mesh: the run starts from its "
       "displacement and goes on with the load where it stopped. Empty: from the body at rest.");
+    prm.add_parameter(
+      "Coarse grids", coarse_grids,
+      "How many coarser grids or meshes are solved first, each with cells of twice the edge of the "
+      "next: the run starts from the last one's displacement under the whole load, and from rest "
+      "if that fails.",
+      dealii::Patterns::Integer(0, 10));
   }
 
   void OutputParameters::add_parameters(dealii::ParameterHandler &prm)

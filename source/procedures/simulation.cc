@@ -90,6 +90,32 @@ namespace softcell
       return text.str() + '.';
     }
 
+    /// @throws BadInput if there can be no coarse grids.
+    void check_coarse_grids(const Parameters &parameters)
+    {
+      if (parameters.procedure.coarse_grids == 0)
+        return;
+      if (!parameters.procedure.start_from.empty())
+        throw BadInput("Solver/Coarse grids and Solver/Start from = " +
+                       parameters.procedure.start_from + " are two starts; remove one of them.");
+      if (!parameters.discretization.mesh.file.empty())
+        throw BadInput("Solver/Coarse grids cannot coarsen Discretization/Mesh file = " +
+                       parameters.discretization.mesh.file + "; remove one of the two.");
+    }
+
+    /// The same run with cells of twice the edge.
+    Parameters coarser(Parameters parameters)
+    {
+      --parameters.procedure.coarse_grids;
+      parameters.discretization.grid.cell_size *= 2;
+      parameters.discretization.mesh.size *= 2;
+      for (unsigned int &n : parameters.discretization.grid.cells)
+        n = (n + 1) / 2;
+      parameters.probes.clear();
+      parameters.output.every = 0;
+      return parameters;
+    }
+
     std::string in_digits(const double value, const int digits = 2)
     {
       std::ostringstream text;
@@ -127,6 +153,7 @@ namespace softcell
   {
     const std::vector<LoadDescription> loads = parse_loads(parameters.load_entries, regions_);
     parameters.load_steps.n_steps(); // throws if it is no number
+    check_coarse_grids(parameters);
     check_memory(parameters, body, MPI_COMM_WORLD);
 
     const Timers::Scope scope(timers_, "setup");
@@ -156,6 +183,12 @@ namespace softcell
                               *loads_, parameters.linear_solver, timers_);
     if (!parameters.procedure.start_from.empty())
       start_from(parameters.procedure.start_from);
+    if (parameters.procedure.coarse_grids > 0)
+    {
+      console_.say("  A coarser grid to start from:");
+      coarser_ =
+        std::make_unique<Simulation>(name + " coarser", coarser(parameters), body, console);
+    }
   }
 
   Simulation::~Simulation() = default;
@@ -201,7 +234,43 @@ namespace softcell
     }
   }
 
+  void Simulation::start_from_coarser()
+  {
+    const Timers::Scope scope(timers_, "coarse grids");
+    coarser_->solve("");
+    start_           = coarser_->history_.reached;
+    const auto first = discretization_->node_positions().begin();
+    const std::vector<Direction> values =
+      evaluate(coarser_->discretization(), coarser_->displacement(),
+               {first, first + discretization_->n_owned_nodes()}, reach())
+        .displacements;
+    for (unsigned int i = 0; i < displacement_.locally_owned_size(); ++i)
+      displacement_.local_element(i) = values[i / 3][i % 3];
+    displacement_.update_ghost_values();
+    coarser_.reset();
+  }
+
   bool Simulation::solve(const std::filesystem::path &folder)
+  {
+    const Timers::Scope scope(timers_, "solve");
+    const bool has_coarser = coarser_ != nullptr;
+    if (has_coarser)
+      start_from_coarser();
+    follow(folder);
+    if (has_coarser && history_.load_steps == 0)
+    {
+      console_.say("  from the coarser grid: " + history_.reason + "; starting from rest");
+      const LoadHistory failed = history_;
+      displacement_            = 0;
+      start_                   = 0;
+      follow(folder);
+      history_.newton_iterations += failed.newton_iterations;
+      history_.linear_iterations += failed.linear_iterations;
+    }
+    return history_.converged;
+  }
+
+  void Simulation::follow(const std::filesystem::path &folder)
   {
     std::string step_text;
     unsigned int n_iterations = 0, n_linear_iterations = 0, n_accepted = 0;
@@ -234,12 +303,10 @@ namespace softcell
       if (every > 0 && ++n_accepted % every == 0)
         write_state(folder, step.to);
     };
-    const Timers::Scope scope(timers_, "solve");
     history_ = follow_load(
       model_->equations(), parameters_.newton, parameters_.load_steps,
       [&](const double t) { model_->set_load(t); }, displacement_, begin_step, report, accepted,
       start_);
-    return history_.converged;
   }
 
   std::string Simulation::reason() const

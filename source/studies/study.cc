@@ -397,10 +397,11 @@ namespace softcell
       {
         if (reference_index_ == one.reference || run.row.get("converged") == "false")
           return;
-        StudyRun again                        = run;
-        again.parameters.procedure.start_from = (folder / "checkpoint.h5").string();
-        reference_                            = build(again, "Solved before: ");
-        reference_index_                      = one.reference;
+        StudyRun again                          = run;
+        again.parameters.procedure.start_from   = (folder / "checkpoint.h5").string();
+        again.parameters.procedure.coarse_grids = 0;
+        reference_                              = build(again, "Solved before: ");
+        reference_index_                        = one.reference;
         return;
       }
       if (reference_index_ != one.reference)

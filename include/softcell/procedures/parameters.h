@@ -31,8 +31,9 @@ namespace softcell
   /// What the section Solver says beside Newton's method, load steps and linear solver.
   struct ProcedureParameters
   {
-    std::string mode       = "static";
-    std::string start_from = ""; // a checkpoint; empty: the body at rest
+    std::string mode          = "static";
+    std::string start_from    = ""; // a checkpoint; empty: the body at rest
+    unsigned int coarse_grids = 0;  // that are solved first, each as a start for the next
 
     void add_parameters(dealii::ParameterHandler &prm);
   };

@@ -29,7 +29,8 @@ namespace softcell
                Console &console);
     ~Simulation();
 
-    /// Follows the load to its end, from where `Start from` says. False if that was not reached:
+    /// Follows the load to its end, from where `Start from` or the coarse grids say, which are
+    /// solved first. False if that was not reached:
     /// then the displacement is that of the last load step that converged, and reason() says what
     /// stopped it.
     /// @param folder for the states that `Every` asks for.
@@ -80,6 +81,12 @@ namespace softcell
     /// Takes displacement and load factor from a checkpoint. @throws BadInput
     void start_from(const std::string &checkpoint);
 
+    /// Solves the coarser grid, takes displacement and load factor from it and drops it.
+    void start_from_coarser();
+
+    /// Goes on from displacement_ at load factor start_.
+    void follow(const std::filesystem::path &folder);
+
     /// Adds the state at a load factor to solution.pvd and makes it the checkpoint, once.
     void write_state(const std::filesystem::path &folder, double load_factor);
 
@@ -100,6 +107,7 @@ namespace softcell
     Size size_;
     std::unique_ptr<Loads> loads_;
     std::unique_ptr<Model> model_;
+    std::unique_ptr<Simulation> coarser_; // until it is solved
     Vector displacement_;
     double start_ = 0; // load factor
     LoadHistory history_;
