@@ -23,8 +23,9 @@ namespace softcell
     public:
       Points(const Discretization &discretization,
              const std::vector<Material> &materials,
-             const bool has_projection)
-          : materials_(materials)
+             const bool has_projection,
+             const Vector *const base = nullptr)
+          : materials_(materials), base_(base)
       {
         if (has_projection)
           projection_.emplace(discretization, materials);
@@ -35,7 +36,12 @@ namespace softcell
       unsigned int visit(const unsigned int i, const DeformedPatch &deformed, const Visit &visit)
       {
         if (projection_)
-          return projection_->for_each_point(i, deformed, visit);
+        {
+          if (base_ != nullptr)
+            deformed_base_.reinit(deformed.patch(), *base_);
+          return projection_->for_each_point(i, deformed,
+                                             base_ == nullptr ? nullptr : &deformed_base_, visit);
+        }
         return for_each_point(
           deformed.patch(), materials_,
           [&](const unsigned int point) { return deformed.deformation_gradient(point); }, visit);
@@ -50,6 +56,8 @@ namespace softcell
     private:
       const std::vector<Material> &materials_;
       std::optional<VolumetricProjection> projection_;
+      const Vector *base_;
+      DeformedPatch deformed_base_;
     };
 
     void throw_if_inverted(const unsigned int n_inverted, const MPI_Comm communicator)
@@ -104,12 +112,12 @@ namespace softcell
     return dealii::Utilities::MPI::sum(energy, discretization_.communicator());
   }
 
-  void Elasticity::add_residual(const Vector &u, Vector &r) const
+  void Elasticity::add_residual(const Vector &u, Vector &r, const Vector *const base) const
   {
     unsigned int n_inverted = 0;
     DeformedPatch deformed;
     PatchResidual residual;
-    Points points(discretization_, materials_, has_projection_);
+    Points points(discretization_, materials_, has_projection_, base);
     for_each_patch([&](const unsigned int i, const Patch &patch) {
       deformed.reinit(patch, u);
       residual.reinit(deformed);
@@ -121,12 +129,12 @@ namespace softcell
     throw_if_inverted(n_inverted, discretization_.communicator());
   }
 
-  void Elasticity::add_tangent(const Vector &u, BlockMatrix &K) const
+  void Elasticity::add_tangent(const Vector &u, BlockMatrix &K, const Vector *const base) const
   {
     unsigned int n_inverted = 0;
     DeformedPatch deformed;
     PatchTangent tangent;
-    Points points(discretization_, materials_, has_projection_);
+    Points points(discretization_, materials_, has_projection_, base);
     for_each_patch([&](const unsigned int i, const Patch &patch) {
       deformed.reinit(patch, u);
       tangent.reinit(deformed);

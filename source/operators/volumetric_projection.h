@@ -107,9 +107,12 @@ namespace softcell
     }
 
     /// Calls visit(law, point, F) as for_each_point() does, for patch i.
+    /// @param base if not null, where v is linearised: v(F_0) + dv/dF(F_0) : (F - F_0).
     template <class Visit>
-    unsigned int
-    for_each_point(const unsigned int i, const DeformedPatch &deformed, const Visit &visit)
+    unsigned int for_each_point(const unsigned int i,
+                                const DeformedPatch &deformed,
+                                const DeformedPatch *const base,
+                                const Visit &visit)
     {
       const Patch &patch = deformed.patch();
       make_modes(i, patch);
@@ -119,7 +122,14 @@ namespace softcell
         patch, materials_,
         [&](const unsigned int point) { return F_[point] = deformed.deformation_gradient(point); },
         [&](const auto &law, const unsigned int point, const auto &F) {
-          strain_[point] = law.volumetric_strain(F);
+          if (base == nullptr)
+            strain_[point] = law.volumetric_strain(F);
+          else
+          {
+            const Matrix3<double> F_0 = base->deformation_gradient(point);
+            strain_[point]            = law.volumetric_strain(F_0) +
+                             double_contraction(law.volumetric_gradient(F_0), F - F_0);
+          }
         });
       make_pressure(patch);
       for_each_known_point(patch, [&](const auto &law, const unsigned int point, const auto &F) {

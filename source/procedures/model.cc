@@ -39,8 +39,10 @@ namespace softcell
         tangent_(discretization.partitioner(), couplings(elasticity_, stabilization_, loads)),
         linear_solver_(make_linear_solver(linear_solver, is_symmetric(loads))),
         timers_(timers),
+        has_projection_(has_projection),
         internal_(discretization.make_vector()),
         external_(discretization.make_vector()),
+        base_(discretization.make_vector()),
         lift_(discretization.make_vector())
   {
   }
@@ -48,12 +50,15 @@ namespace softcell
   void Model::set_load(const double t)
   {
     load_factor_ = t;
+    has_base_    = false;
   }
 
   NonlinearProblem Model::equations()
   {
     NonlinearProblem problem;
-    problem.residual  = [this](const Vector &u, Vector &r) { residual(u, r); };
+    problem.residual = [this](const Vector &u, Vector &r) { residual(u, r); };
+    if (has_projection_)
+      problem.search_residual = [this](const Vector &u, Vector &r) { residual(u, r, &base_); };
     problem.linearise = [this](const Vector &u) { linearise(u); };
     problem.solve     = [this](const Vector &r, const Vector &imposed, Vector &du) {
       return solve(r, imposed, du);
@@ -89,11 +94,14 @@ namespace softcell
     return energy;
   }
 
-  void Model::unconstrained_residual(const Vector &u, Vector &internal, Vector &external) const
+  void Model::unconstrained_residual(const Vector &u,
+                                     Vector &internal,
+                                     Vector &external,
+                                     const Vector *const base) const
   {
     internal = 0;
     external = 0;
-    elasticity_.add_residual(u, internal);
+    elasticity_.add_residual(u, internal, base);
     stabilization_.add_residual(u, internal);
     for (const auto &force : loads_.forces)
       force->add_residual(u, load_factor_, external);
@@ -101,10 +109,10 @@ namespace softcell
     external.compress(dealii::VectorOperation::add);
   }
 
-  void Model::residual(const Vector &u, Vector &r)
+  void Model::residual(const Vector &u, Vector &r, const Vector *const base)
   {
     const Timers::Scope scope(timers_, "residual");
-    unconstrained_residual(u, internal_, external_);
+    unconstrained_residual(u, internal_, external_, base);
     force_scale_ = internal_.l2_norm() + external_.l2_norm();
     r            = internal_;
     r += external_;
@@ -118,8 +126,13 @@ namespace softcell
     {
       const Timers::Scope scope(timers_, "assembly");
       tangent_.set_zero();
-      elasticity_.add_tangent(u, tangent_);
+      elasticity_.add_tangent(u, tangent_, has_base_ ? &base_ : nullptr);
       stabilization_.add_tangent(tangent_);
+      if (has_projection_)
+      {
+        base_     = u;
+        has_base_ = true;
+      }
       for (const auto &force : loads_.forces)
         force->add_tangent(u, load_factor_, tangent_);
       tangent_.compress();

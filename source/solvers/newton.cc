@@ -56,7 +56,8 @@ namespace softcell
       void look_what_is_missing();
       bool has_converged() const;
       bool is_poor(Step step, const NewtonIteration &iteration);
-      bool evaluate_trial(double step);
+      bool evaluate_trial(double step,
+                          const std::function<void(const Vector &, Vector &)> &residual);
       Step search_line(NewtonIteration &iteration);
 
       const NonlinearProblem &problem_;
@@ -82,9 +83,9 @@ namespace softcell
       }
     }
 
-    /// The residual at u + step du; false if a point is inverted there or the residual is not
-    /// finite.
-    bool Newton::evaluate_trial(const double step)
+    /// A residual at u + step du; false if a point is inverted there or the residual is not finite.
+    bool Newton::evaluate_trial(const double step,
+                                const std::function<void(const Vector &, Vector &)> &residual)
     {
       trial_u_.zero_out_ghost_values();
       std::copy_n(u_.begin(), u_.locally_owned_size(), trial_u_.begin());
@@ -92,7 +93,7 @@ namespace softcell
       trial_u_.update_ghost_values();
       try
       {
-        problem_.residual(trial_u_, trial_r_);
+        residual(trial_u_, trial_r_);
       }
       catch (const InvertedPoint &)
       {
@@ -118,7 +119,8 @@ namespace softcell
       for (unsigned int halving = 0; halving <= parameters_.max_halvings; ++halving)
       {
         iteration.step = std::ldexp(1., -int(halving));
-        if (!evaluate_trial(iteration.step))
+        if (!evaluate_trial(iteration.step, problem_.search_residual ? problem_.search_residual
+                                                                     : problem_.residual))
           continue;
         const double trial_slope  = du_ * trial_r_;
         const double trial_length = trial_u_.l2_norm();
@@ -158,7 +160,7 @@ namespace softcell
     {
       NewtonResult result;
       u_.update_ghost_values();
-      if (!evaluate_trial(0.))
+      if (!evaluate_trial(0., problem_.residual))
       {
         result.reason = std::isfinite(dot(trial_r_, trial_r_)) // still 0
                           ? "a point is inverted before the first iteration"
@@ -189,7 +191,10 @@ namespace softcell
         if (step != Step::rejected)
         {
           u_.swap(trial_u_);
-          r_.swap(trial_r_);
+          if (problem_.search_residual)
+            problem_.residual(u_, r_);
+          else
+            r_.swap(trial_r_);
           look_what_is_missing();
         }
         iteration.residual = scale_ > 0 ? r_.l2_norm() / scale_ : r_.l2_norm();

@@ -183,6 +183,30 @@ namespace softcell
     }
   }
 
+  TEST(VolumetricProjection, StrainsLinearisedElsewhereErrToSecondOrder)
+  {
+    const UnitCells cells({{2, 1, 1}}, 2);
+    const Vector base = nodal_values(cells, bending);
+    const auto error  = [&](const std::string &law, const double distance) {
+      const Elasticity elasticity(cells, two_materials(law), true);
+      Vector u = base;
+      u.add(distance, nodal_values(cells, [](const Point &X) {
+              return Direction({X[1] * X[2], -X[0] * X[2], X[0] - X[1] * X[1]});
+            }));
+      Vector r = internal_force(elasticity, u);
+      r *= -1;
+      elasticity.add_residual(u, r, &base);
+      return r.l2_norm();
+    };
+    EXPECT_LT(error("linear", 0.1), 1e-13);
+    for (const std::string law : {"Neo-Hookean", "Saint-Venant-Kirchhoff"})
+    {
+      EXPECT_LT(error(law, 0), 1e-13);
+      EXPECT_GT(error(law, 1e-3), 1e-8);
+      EXPECT_NEAR(error(law, 2e-3) / error(law, 1e-3), 4, 0.05);
+    }
+  }
+
   TEST(VolumetricProjection, RotationsAddNoEnergy)
   {
     const UnitCells cells({{2, 1, 1}}, 2);

@@ -71,6 +71,28 @@ namespace
     }
   }
 
+  // The first step goes from 0.3 to 3.9, where x^3 - 1 is 60 times as large.
+  TEST(Newton, looks_at_the_search_residual_along_the_line)
+  {
+    for (const bool has_search_residual : {false, true})
+    {
+      ScalarEquation equation{[](double x) { return x * x * x - 1; },
+                              [](double x) { return 3 * x * x; }};
+      NonlinearProblem problem = equation.problem();
+      if (has_search_residual)
+        problem.search_residual = [](const Vector &, Vector &r) { r = 0.; };
+      Vector u(equation.unknowns);
+      u(0) = 0.3;
+      EXPECT_TRUE(newton_raphson(problem, {}, u).converged);
+      EXPECT_NEAR(u(0), 1, 1e-10);
+      const double full = 0.3 + (1 - 0.027) / 0.27;
+      if (has_search_residual)
+        EXPECT_NEAR(equation.iterates[1], full, 1e-12);
+      else
+        EXPECT_LT(equation.iterates[1], full / 2 + 0.2);
+    }
+  }
+
   TEST(Newton, takes_no_iteration_where_nothing_is_to_do)
   {
     ScalarEquation equation{[](double x) { return x; }, [](double) { return 1.; }, 0.};

@@ -22,6 +22,12 @@ namespace softcell
   /// With W the energy density and F = I + du/dX: energy = int W, residual_i = int P : dN_i/dX
   /// (Brunet eq. 2.17), tangent = d residual / du (eq. 2.27). All members are collective; u needs
   /// its ghost values up to date.
+  ///
+  /// With projection, residual and tangent can be had with the volumetric strain linearised at a
+  /// `base`: pressures then change with u as those of Newton's method in displacement and pressure
+  /// do, whose steps are not cut short by the second-order changes of volume that come with them.
+  /// At u = base, both residuals are the same. Source: Magisano, Leonetti, Garcea (2017), who do
+  /// so with the stress at each point.
   class Elasticity
   {
   public:
@@ -38,11 +44,11 @@ namespace softcell
 
     /// Adds the internal force to r. The caller compresses (VectorOperation::add) when all loads
     /// are in. Units: N. @throws InvertedPoint
-    void add_residual(const Vector &u, Vector &r) const;
+    void add_residual(const Vector &u, Vector &r, const Vector *base = nullptr) const;
 
     /// Adds the tangent to K; the caller compresses when all loads are in.
     /// Units: N/m. @throws InvertedPoint
-    void add_tangent(const Vector &u, BlockMatrix &K) const;
+    void add_tangent(const Vector &u, BlockMatrix &K, const Vector *base = nullptr) const;
 
     /// The node lists of this rank's patches, whose unknowns the tangent couples: for making K.
     std::vector<std::vector<unsigned int>> couplings() const;

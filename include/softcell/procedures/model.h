@@ -68,11 +68,15 @@ namespace softcell
     }
 
   private:
-    void residual(const Vector &u, Vector &r);
+    /// @param base as of Elasticity.
+    void residual(const Vector &u, Vector &r, const Vector *base = nullptr);
     void linearise(const Vector &u);
     unsigned int solve(const Vector &r, const Vector &imposed, Vector &du);
     /// Internal less external forces in all unknowns, the imposed ones too.
-    void unconstrained_residual(const Vector &u, Vector &internal, Vector &external) const;
+    void unconstrained_residual(const Vector &u,
+                                Vector &internal,
+                                Vector &external,
+                                const Vector *base = nullptr) const;
 
     const Discretization &discretization_;
     Elasticity elasticity_;
@@ -81,10 +85,13 @@ namespace softcell
     BlockMatrix tangent_;
     std::unique_ptr<LinearSolver> linear_solver_;
     Timers &timers_;
+    bool has_projection_;
+    bool has_base_      = false; // base_ is of this load factor
     double load_factor_ = 0;
     double force_scale_ = 0; // of the last residual
     double diagonal_    = 1; // of imposed rows
     Vector internal_, external_;
+    Vector base_; // where the tangent was taken last, if there is a projection
     Vector lift_; // K times what is missing of the imposed displacement, from before K lost these
                   // columns
   };

@@ -19,6 +19,10 @@ namespace softcell
     /// ranks or none.
     std::function<void(const Vector &u, Vector &r)> residual;
 
+    /// What the line search looks at in place of the residual, with the same value where the
+    /// tangent was taken last. May be empty: the residual.
+    std::function<void(const Vector &u, Vector &r)> search_residual;
+
     /// Assembles the tangent K = dr/du at u, ready for solve().
     std::function<void(const Vector &u)> linearise;
 
