@@ -55,6 +55,8 @@ TEST(Geometry, MakesEveryShape)
   EXPECT_NEAR(body("set Type = cylinder\n set Radius = 2\n set Length = 3\n")->volume(), 12 * pi,
               1e-12);
   EXPECT_NEAR(body("set Type = sphere\n set Radius = 3\n")->volume(), 36 * pi, 1e-12);
+  EXPECT_NEAR(body("set Type = hollow sphere\n set Radius = 3\n set Inner radius = 1\n")->volume(),
+              104 * pi / 3, 1e-12);
   EXPECT_NEAR(body("set Type = torus\n set Radius = 1\n set Ring radius = 3\n")->volume(),
               6 * pi * pi, 1e-12);
   EXPECT_NEAR(body("set Type = hexagonal prism\n set Radius = 2\n set Length = 3\n")->volume(),
@@ -83,6 +85,8 @@ TEST(Geometry, RefusesSizesThatAreNone)
   expect_bad_input("set Type = box\n set Size = 1, 0, 1\n", "Size (y) = 0");
   expect_bad_input("set Type = torus\n set Radius = 0.2\n set Ring radius = 0.1\n",
                    "larger Ring radius");
+  expect_bad_input("set Type = hollow sphere\n set Radius = 0.2\n set Inner radius = 0.2\n",
+                   "give a smaller one");
   expect_bad_input("set Type = surface\n set File = liver.stl\n set Scale = 0\n",
                    "Geometry/Scale = 0");
   GeometryParameters parameters;

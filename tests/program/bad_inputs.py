@@ -97,6 +97,8 @@ BAD_INPUTS = [
      ["Loads/top", "finite", "t = 0.1"]),
     ("springs that push", ["Loads/base = springs -1e6"], None, ["Loads/base", "-1e6", "negative"]),
     ("springs of no stiffness", ["Loads/base = springs 0"], None, ["free to move along x, y and z"]),
+    ("cavity that leaves nothing", ["Geometry/Type = hollow sphere", "Geometry/Inner radius = 0.06"], None,
+     ["Geometry/Inner radius = 0.06", "Radius = 0.05", "smaller"]),
     ("load by no solution", ["Loads/top = traction exact"], None, ["Loads/top", "exact", "Manufactured solution"]),
     ("load beside a manufactured one", ["Loads/Manufactured solution = sine"], None,
      ["Loads/top", "0, -30, 0", "traction exact"]),
