@@ -77,11 +77,13 @@ namespace softcell
               const Discretization &discretization,
               const Surface &surface,
               const std::vector<Material> &materials,
+              const DisplacementField *reference,
               const std::vector<LoadDescription> &descriptions)
           : parameters_(parameters),
             discretization_(discretization),
             surface_(surface),
             materials_(materials),
+            reference_(reference),
             n_displacements_(std::count_if(
               descriptions.begin(),
               descriptions.end(),
@@ -121,6 +123,9 @@ namespace softcell
         if (load.is_exact() && !loads_.exact)
           throw BadInput(load.place + " has no known solution to be taken from; choose one by "
                                       "Loads/Manufactured solution, such as sine.");
+        if (load.is_of_reference() && !reference_)
+          throw BadInput(load.place + " has no run to be taken from; describe one in "
+                                      "Study/Reference, with another load on this region.");
         if (load.kind == Kind::displacement)
         {
           add_displacement(load, region);
@@ -175,16 +180,22 @@ namespace softcell
 
       void add_displacement(const LoadDescription &load, const Region &region)
       {
-        Expression displacement = imposed_displacement(load);
-        const std::string &how  = parameters_.imposition;
+        const std::string &how = parameters_.imposition;
         if (how == "automatic" || how == "strong")
         {
           if (const auto nodes = discretization_.nodes_on(region))
           {
             check_selects(region, nodes->size());
-            check_numbers(displacement, *nodes);
-            if (how == "automatic")
-              check_agreement(load, discretization_.surface_patches(region), displacement);
+            std::vector<Point> points;
+            for (const unsigned int node : *nodes)
+              points.push_back(discretization_.node_positions()[node]);
+            Expression displacement = imposed_displacement(load, points);
+            check_numbers(displacement, points);
+            if (how == "automatic" && n_displacements_ > 1)
+            {
+              const auto patches = discretization_.surface_patches(region);
+              check_agreement(load, patches, imposed_displacement(load, points_of(patches)));
+            }
             loads_.imposed.add(load.region, *nodes, std::move(displacement));
             return;
           }
@@ -194,9 +205,10 @@ namespace softcell
                            "', which does not coincide with faces of cells; choose "
                            "automatic, penalty or Nitsche.");
         }
-        auto patches = surface_patches(region);
+        auto patches            = surface_patches(region);
+        Expression displacement = imposed_displacement(load, points_of(patches));
         check_numbers(displacement, patches);
-        if (!is_nodal()) // regions that meet share the nodes between them
+        if (!is_nodal() && n_displacements_ > 1) // regions that meet share the nodes between them
           check_agreement(load, patches, displacement);
         if (how == "penalty" || how == "automatic")
         {
@@ -215,13 +227,50 @@ namespace softcell
         }
       }
 
-      Expression imposed_displacement(const LoadDescription &load) const
+      /// @param points at which it will be asked for, a rank's own. Collective.
+      Expression imposed_displacement(const LoadDescription &load,
+                                      const std::vector<Point> &points) const
       {
+        if (load.is_of_reference())
+          return reference_displacement(load, points);
         if (!load.is_exact())
           return Expression(load.value, 3, load.place);
         return Expression([exact = loads_.exact.get()](
                             const Point &X, const double t) { return t * exact->displacement(X); },
                           load.place);
+      }
+
+      Expression reference_displacement(const LoadDescription &load,
+                                        const std::vector<Point> &points) const
+      {
+        const PointValues values =
+          evaluate(reference_->discretization, reference_->u, points, reference_->reach);
+        std::ostringstream message;
+        std::map<std::array<double, 3>, Direction> table;
+        for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          table.emplace(coordinates(points[i]), values.displacements[i]);
+          if (!std::isfinite(values.distances[i]) && message.str().empty())
+            message << load.place << " has no displacement at (" << points[i]
+                    << "), which is far outside all cells of the reference.";
+        }
+        throw_on_all(discretization_.communicator(), message.str());
+        return Expression(
+          [table](const Point &X, const double t) { return t * table.at(coordinates(X)); },
+          load.place);
+      }
+
+      static std::array<double, 3> coordinates(const Point &X)
+      {
+        return {{X[0], X[1], X[2]}};
+      }
+
+      static std::vector<Point> points_of(const std::vector<SurfacePatch> &patches)
+      {
+        std::vector<Point> points;
+        for (const SurfacePatch &patch : patches)
+          points.insert(points.end(), patch.points.begin(), patch.points.end());
+        return points;
       }
 
       /// The stiffness of the entry Penalty. What each patch has of its own goes into its weights.
@@ -277,18 +326,7 @@ namespace softcell
                          const std::vector<SurfacePatch> &patches,
                          const bool is_stiffness = false) const
       {
-        std::vector<Point> points;
-        for (const SurfacePatch &patch : patches)
-          points.insert(points.end(), patch.points.begin(), patch.points.end());
-        check_numbers(value, points, is_stiffness);
-      }
-
-      void check_numbers(const Expression &value, const std::vector<unsigned int> &nodes) const
-      {
-        std::vector<Point> points;
-        for (const unsigned int node : nodes)
-          points.push_back(discretization_.node_positions()[node]);
-        check_numbers(value, points);
+        check_numbers(value, points_of(patches), is_stiffness);
       }
 
       /// The value must be a number at every point, that of a stiffness not negative: at full load
@@ -319,8 +357,6 @@ namespace softcell
                            const std::vector<SurfacePatch> &patches,
                            const Expression &displacement)
       {
-        if (n_displacements_ < 2)
-          return;
         const auto [lower, upper] = surface_.bounding_box().get_boundary_points();
         const double round_off    = 1e-12 * lower.distance(upper);
         std::ostringstream message;
@@ -332,8 +368,7 @@ namespace softcell
             for (unsigned int c = 0; c < 3; ++c)
               if (!displacement.is_free(c))
                 here.place[c] = g[c];
-            const HeldPoint &there =
-              held_points_.emplace(std::array{X[0], X[1], X[2]}, here).first->second;
+            const HeldPoint &there = held_points_.emplace(coordinates(X), here).first->second;
             for (unsigned int c = 0; c < 3 && message.str().empty(); ++c)
               if (there.place[c] && here.place[c] &&
                   std::abs(*there.place[c] - *here.place[c]) > round_off)
@@ -369,7 +404,8 @@ namespace softcell
       const Discretization &discretization_;
       const Surface &surface_;
       const std::vector<Material> &materials_;
-      const unsigned int n_displacements_; // of the loads
+      const DisplacementField *const reference_; // null if there is none
+      const unsigned int n_displacements_;       // of the loads
       RigidModes held_;
       std::map<std::array<double, 3>, HeldPoint> held_points_;
       Loads loads_;
@@ -381,9 +417,10 @@ namespace softcell
                    const std::vector<Region> &regions,
                    const Discretization &discretization,
                    const Surface &surface,
-                   const std::vector<Material> &materials)
+                   const std::vector<Material> &materials,
+                   const DisplacementField *const reference)
   {
-    Builder builder(parameters, discretization, surface, materials, descriptions);
+    Builder builder(parameters, discretization, surface, materials, reference, descriptions);
     builder.add_weight();
     builder.add_manufactured_body_force();
     for (const LoadDescription &load : descriptions)

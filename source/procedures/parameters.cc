@@ -23,6 +23,7 @@ namespace softcell
 #   set NAME = pressure 1733                (Pa; inward, follows the surface)
 #   set NAME = springs 1e6                  (Pa/m; towards the place at rest)
 #   set NAME = displacement exact           (or traction exact, of the manufactured solution)
+#   set NAME = displacement reference       (that of Study/Reference, for a study's cases)
 #              Values are expressions of x, y, z and of the load factor t, which goes from 0 to 1;
 #              of those without t, t times the value acts, but springs are there from the start.
 # end

@@ -142,7 +142,8 @@ namespace softcell
   Simulation::Simulation(const std::string &name,
                          const Parameters &parameters,
                          const Body &body,
-                         Console &console)
+                         Console &console,
+                         const DisplacementField *const reference)
       : name_(name),
         parameters_(parameters),
         body_(body),
@@ -172,8 +173,8 @@ namespace softcell
       remarks_.push_back(warning);
     }
 
-    loads_ = std::make_unique<Loads>(
-      make_loads(parameters.loads, loads, regions_, *discretization_, body.surface(), materials_));
+    loads_ = std::make_unique<Loads>(make_loads(parameters.loads, loads, regions_, *discretization_,
+                                                body.surface(), materials_, reference));
     if (!loads_->free_motions.empty())
       throw BadInput("Loads: " + loads_->free_motions);
     displacement_ = discretization_->make_vector();
@@ -186,8 +187,8 @@ namespace softcell
     if (parameters.procedure.coarse_grids > 0)
     {
       console_.say("  A coarser grid to start from:");
-      coarser_ =
-        std::make_unique<Simulation>(name + " coarser", coarser(parameters), body, console);
+      coarser_ = std::make_unique<Simulation>(name + " coarser", coarser(parameters), body, console,
+                                              reference);
     }
   }
 

@@ -135,6 +135,32 @@ namespace softcell
     return integrate_difference(discretization, u, points, field, reach);
   }
 
+  SurfaceDifference surface_difference(const DisplacementField &field,
+                                       const DisplacementField &reference,
+                                       const std::vector<Point> &vertices)
+  {
+    // every rank asks for its share
+    const MPI_Comm communicator = field.discretization.communicator();
+    const unsigned int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    std::vector<Point> points;
+    for (std::size_t i = dealii::Utilities::MPI::this_mpi_process(communicator);
+         i < vertices.size(); i += n_ranks)
+      points.push_back(vertices[i]);
+    const PointValues one = evaluate(field.discretization, field.u, points, field.reach);
+    const PointValues other =
+      evaluate(reference.discretization, reference.u, points, reference.reach);
+
+    double sum = 0, max = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const double error = (one.displacements[i] - other.displacements[i]).norm();
+      sum += error;
+      max = std::max(max, error);
+    }
+    return {dealii::Utilities::MPI::sum(sum, communicator) / vertices.size(),
+            dealii::Utilities::MPI::max(max, communicator)};
+  }
+
   std::unique_ptr<Discretization> finer_points(const DiscretizationParameters &parameters,
                                                const GeometryParameters &geometry,
                                                const Body &body,

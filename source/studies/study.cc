@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <optional>
 #include <sstream>
 
 namespace softcell
@@ -61,7 +62,9 @@ namespace softcell
                     const StudyCase &study_case);
       std::filesystem::path folder_of(const StudyRun &run) const;
       const Body &body_of(const Parameters &parameters);
-      std::unique_ptr<Simulation> build(StudyRun &run, const std::string &what);
+      /// @param reference whose displacement the run may impose.
+      std::unique_ptr<Simulation>
+      build(StudyRun &run, const std::string &what, const Simulation *reference = nullptr);
       /// From now on there is a folder. Collective.
       void begin();
       void solve_all();
@@ -115,6 +118,14 @@ namespace softcell
       return dynamic_cast<const BadInput *>(&error) != nullptr ||
              dynamic_cast<const NotConverged *>(&error) != nullptr ||
              dynamic_cast<const InvertedPoint *>(&error) != nullptr;
+    }
+
+    /// Does a run take its loads from the reference?
+    bool imposes_reference(const Parameters &parameters)
+    {
+      return std::any_of(
+        parameters.load_entries.begin(), parameters.load_entries.end(),
+        [](const auto &entry) { return entry.second.find("reference") != std::string::npos; });
     }
 
     Work work_of(const Parameters &parameters, const double points, const double unknowns)
@@ -213,11 +224,16 @@ namespace softcell
       return *body;
     }
 
-    std::unique_ptr<Simulation> Study::build(StudyRun &run, const std::string &what)
+    std::unique_ptr<Simulation>
+    Study::build(StudyRun &run, const std::string &what, const Simulation *const reference)
     {
+      std::optional<DisplacementField> field;
+      if (reference)
+        field.emplace(reference->field());
       const Body &body = body_of(run.parameters);
       console_.say(what + run.name);
-      auto simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_);
+      auto simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_,
+                                                     field ? &*field : nullptr);
       const Size size = simulation->discretization().size();
       run.work        = work_of(run.parameters, static_cast<double>(size.integration_points),
                                 static_cast<double>(size.unknowns));
@@ -263,9 +279,15 @@ namespace softcell
           reference_index_ = i;
         }
       for (unsigned int i = 0; i < cases_.size(); ++i)
-        if (!cases_[i].is_solved())
-          build(cases_[i], "Check of case " + std::to_string(i + 1) + " of " +
-                             std::to_string(cases_.size()) + ": ");
+      {
+        Case &one                = cases_[i];
+        const bool has_reference = reference_ && reference_index_ == one.reference;
+        if (!one.is_solved() && (has_reference || !imposes_reference(one.parameters)))
+          build(one,
+                "Check of case " + std::to_string(i + 1) + " of " + std::to_string(cases_.size()) +
+                  ": ",
+                has_reference ? reference_.get() : nullptr);
+      }
     }
 
     void Study::begin()
@@ -426,13 +448,20 @@ namespace softcell
 
     void Study::solve_case(Case &one, const std::string &what)
     {
-      const auto simulation = build(one, what);
+      const auto simulation = build(one, what, reference_.get());
       begin();
       const std::filesystem::path folder = folder_of(one);
       const bool is_solved               = simulation->solve(folder);
       ResultsRow row                     = simulation->row();
       if (is_solved && (reference_ || simulation->exact()))
         add_errors(error_of(one, *simulation), row);
+      if (is_solved && reference_)
+      {
+        const SurfaceDifference error = surface_difference(
+          simulation->field(), reference_->field(), body_of(one.parameters).surface().vertices());
+        row.set("mean_surface_error", error.mean);
+        row.set("max_surface_error", error.max);
+      }
       for (const auto &[name, label] : one.labels)
         row.set(name, label);
       for (const std::string &remark : simulation->remarks())

@@ -64,6 +64,7 @@ BAD_INPUTS = [
     ("line without meaning", [], "@BAR@Cells = 4\n", ["mistake.prm:", "Cells = 4"]),
     ("value of another kind", ["Material/Density = heavy"], None, ["Material/Density", "heavy", "number"]),
     ("value out of range", ["Discretization/Cut levels = -1"], None, ["Discretization/Cut levels", "-1"]),
+    ("displacement of no reference", ["Loads/top = displacement reference"], None, ["Loads/top", "Study/Reference"]),
     ("unknown choice", ["Discretization/Method = finite sell"], None, ["Discretization/Method", "finite cell"]),
     ("unknown material", ["Material/Model = rubber"], None, ["Material/Model", "rubber", "Neo-Hookean"]),
     ("modulus of zero", ["Material/Young modulus = 0"], None, ["Young modulus", "0"]),

@@ -40,6 +40,14 @@ namespace softcell
     return value;
   }
 
+  /// A displacement with the discretization that it belongs to; both outlive it.
+  struct DisplacementField
+  {
+    const Discretization &discretization;
+    const Vector &u; // with ghost values
+    double reach;    // that evaluate() gets. Units: m
+  };
+
   /// Displacements at points in any order.
   struct PointValues
   {

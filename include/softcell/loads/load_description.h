@@ -23,7 +23,7 @@ namespace softcell
 
     std::string region;
     Kind kind;
-    std::string value; // its expressions, or `exact`
+    std::string value; // its expressions, `exact` or `reference`
     std::string place; // `Loads/NAME = 'kind value'`, for messages
 
     /// Is it that of the manufactured solution?
@@ -31,13 +31,19 @@ namespace softcell
     {
       return value == "exact";
     }
+    /// Is it the displacement of the reference run?
+    bool is_of_reference() const
+    {
+      return value == "reference";
+    }
   };
 
   /// Reads entries (name of a region, text):
   ///   clamp | displacement ux, uy, uz | traction tx, ty, tz | pressure p | springs k
   /// with values in m, Pa and Pa/m that are expressions of x, y, z and t. Values that do not
   /// contain t are multiplied by the load factor t, but for k. `displacement exact` and `traction
-  /// exact` are those of the manufactured solution.
+  /// exact` are those of the manufactured solution, `displacement reference` that of a study's
+  /// reference run, times t.
   /// @throws BadInput
   std::vector<LoadDescription>
   parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,

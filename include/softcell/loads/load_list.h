@@ -2,6 +2,7 @@
 // The parameter section Loads, and the loads that it describes.
 #pragma once
 
+#include <softcell/discretization/evaluation.h>
 #include <softcell/geometry/surface.h>
 #include <softcell/loads/imposed_displacement.h>
 #include <softcell/loads/load.h>
@@ -44,11 +45,13 @@ namespace softcell
   /// Builds the loads on a discretization of a body. Collective.
   /// @param surface   of the body, for `Surface integration = nodal`.
   /// @param materials one per label; they outlive the result, as the discretization does.
+  /// @param reference that loads `displacement reference` impose; may be null if there are none.
   /// @throws BadInput on all ranks.
   Loads make_loads(const LoadParameters &parameters,
                    const std::vector<LoadDescription> &descriptions,
                    const std::vector<Region> &regions,
                    const Discretization &discretization,
                    const Surface &surface,
-                   const std::vector<Material> &materials);
+                   const std::vector<Material> &materials,
+                   const DisplacementField *reference = nullptr);
 } // namespace softcell

@@ -22,11 +22,14 @@ namespace softcell
   public:
     /// Builds the discretization, the loads and the equations, and says how large they are.
     /// @param body    must outlive the simulation, as the console must.
+    /// @param reference whose displacement loads `displacement reference` impose, as it is now;
+    ///                may be null if there are none.
     /// @throws BadInput
     Simulation(const std::string &name,
                const Parameters &parameters,
                const Body &body,
-               Console &console);
+               Console &console,
+               const DisplacementField *reference = nullptr);
     ~Simulation();
 
     /// Follows the load to its end, from where `Start from` or the coarse grids say, which are
@@ -61,6 +64,11 @@ namespace softcell
 
     /// How far outside all cells a point of the body may lie. Units: m
     double reach() const;
+
+    DisplacementField field() const
+    {
+      return {*discretization_, displacement_, reach()};
+    }
 
     /// What results.csv says of this case.
     ResultsRow row() const;

@@ -34,6 +34,17 @@ namespace softcell
                         const ManufacturedSolution &exact,
                         double reach);
 
+  /// How far vertices of a body's surface are from where a reference has them (Brunet fig. 4.14).
+  struct SurfaceDifference
+  {
+    double mean = 0, max = 0; // of |u - u_ref|. Units: m
+  };
+
+  /// @param vertices the same on all ranks, none farther than the fields reach. Collective.
+  SurfaceDifference surface_difference(const DisplacementField &field,
+                                       const DisplacementField &reference,
+                                       const std::vector<Point> &vertices);
+
   /// The integration points by which a discretization is measured against a known displacement:
   /// those of finite cells of its degree, two along each edge of a cell. Its own would not do,
   /// since gradients are superconvergent there. Collective.
