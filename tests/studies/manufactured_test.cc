@@ -71,7 +71,9 @@ namespace softcell
   }
 
   /// A cube that lies across the grid, drawn on one half of its boundary and held by Nitsche's
-  /// method on the other. At so few cells the orders are still on their way up to 2 and 1.
+  /// method on the other. Theory: 2 in L2 and 1 in H1. At so few cells, how the cube lies in the
+  /// grid still moves the order in L2 by some tenths, so these bounds tell a loss of order but
+  /// prove none.
   TEST(Manufactured, ImmersedMethodsHaveTheirOrders)
   {
     struct Orders
