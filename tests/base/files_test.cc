@@ -14,10 +14,18 @@
 
 using namespace softcell;
 
+namespace
+{
+  /// A name of this rank's own.
+  std::string own_name()
+  {
+    return "files_test_" + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  }
+} // namespace
+
 TEST(Files, ReplacesTheWhole)
 {
-  const std::string file =
-    "files_test_" + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  const std::string file = own_name();
   write_file(file, "a long first text\n");
   write_file(file, "short\n");
   std::stringstream text;
@@ -48,10 +56,11 @@ TEST(Files, NamesAFolderThatCannotBeMade)
 
 TEST(Files, LeavesNothingOfAFolderThatIsOnlyChecked)
 {
-  make_folder("files_test");
-  check_folder("files_test/some/more");
-  EXPECT_TRUE(std::filesystem::exists("files_test"));
-  EXPECT_FALSE(std::filesystem::exists("files_test/some"));
-  check_folder("files_test");
-  EXPECT_TRUE(std::filesystem::remove("files_test"));
+  const std::string folder = own_name();
+  make_folder(folder);
+  check_folder(folder + "/some/more");
+  EXPECT_TRUE(std::filesystem::exists(folder));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/some"));
+  check_folder(folder);
+  EXPECT_TRUE(std::filesystem::remove(folder));
 }
