@@ -26,7 +26,7 @@ namespace softcell
 
     std::string program()
     {
-      const std::string name = std::string(version) + '\n' + commit;
+      std::string name = std::string(version) + '\n' + commit;
       if (name.find("-dirty") == std::string::npos && name.find("unknown") == std::string::npos)
         return name;
       std::ifstream in("/proc/self/exe", std::ios::binary);
