@@ -88,7 +88,8 @@ namespace softcell
   std::vector<Immersed::Piece> Immersed::pieces(const std::vector<unsigned int> &triangles,
                                                 double &lost) const
   {
-    const Surface &surface = body_.surface();
+    const Surface &surface  = body_.surface();
+    const double negligible = 1e-13 * std::pow(smallest(lattice_.spacing), 2); // round-off
     std::vector<Piece> result;
     lost = 0;
     for (const unsigned int t : triangles)
@@ -109,7 +110,7 @@ namespace softcell
         std::vector<Point> polygon(corners.begin(), corners.end());
         if (!in_one)
           polygon = clip(corners, lattice_.box({index, 1}));
-        if (polygon.size() < 3)
+        if (polygon_area(polygon) < negligible) // a cell that it only touches
           return;
         if (cell == none)
         {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Pieces of surface: each once, with the body's area.
 
+#include "../box_surface.h"
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/shapes.h>
 #include <softcell/geometry/surface.h>
+#include <softcell/geometry/surface_body.h>
 
 #include <gtest/gtest.h>
 
@@ -89,6 +92,25 @@ namespace softcell
     }
     const Immersed shifted("finite cell", 1, scaled_grid(4, 1.01), {2, 0}, *body, MPI_COMM_WORLD);
     EXPECT_FALSE(shifted.nodes_on(base));
+  }
+
+  /// Triangles of 1/8 on cells of 1/16: those cells have no nodes there that they only touch.
+  TEST(ImmersedSurface, NodesOfARegionEndWhereItEnds)
+  {
+    const SurfaceBody body(box_surface(Point(1, 1, 1), 8));
+    GridParameters grid;
+    grid.cells = {16};
+    const Immersed immersed("weighted cell", 1, grid, {1, 0}, body, MPI_COMM_WORLD);
+    const auto nodes = immersed.nodes_on(Region("patch", "z < 1e-9 && x < 0.25 && y < 0.25"));
+    ASSERT_TRUE(nodes);
+    unsigned int n_owned = 0;
+    for (const unsigned int node : *nodes)
+    {
+      n_owned += node < immersed.n_owned_nodes();
+      EXPECT_LT(std::max(immersed.node_positions()[node][0], immersed.node_positions()[node][1]),
+                0.25 + 1e-9);
+    }
+    EXPECT_EQ(dealii::Utilities::MPI::sum(n_owned, MPI_COMM_WORLD), 5u * 5);
   }
 
   TEST(ImmersedSurface, ARegionMustSelectSomething)
