@@ -51,7 +51,8 @@ class Axis:
 
 DOFS, LEVELS = Axis("dofs", "unknowns"), Axis("cut_levels", "cut levels", integer=True)
 SECONDS, ASSEMBLY = Axis("total_s", "time to the solution, s"), Axis("assembly_s", "one tangent assembly, s")
-L2, H1 = (Axis(f"relative_{n.lower()}_error", f"relative error in {n}, %", 100) for n in ("L2", "H1"))
+L2, H1, STRESS = (Axis(f"relative_{c}_error", f"relative error {what}, %", 100)
+                  for c, what in (("l2", "in L2"), ("h1", "in H1"), ("stress", "of the stress")))
 STEPS, REACHED = Axis("load_steps", "load steps", integer=True), Axis("load_factor", "share of the load reached")
 NEWTON, LINEAR = (Axis(f"{n.lower()}_iterations", f"{n} iterations", integer=True) for n in ("Newton", "linear"))
 
@@ -148,10 +149,10 @@ def draw_counts(study, axes, rows, x, y):
 
 
 def error_plots(study):
-    """Errors against size, unknowns and time, for each norm."""
+    """Errors against size, unknowns and time, for each norm and of the stress."""
     rows, note = study.finest_levels()
     size = Axis("cell_size", f"cell size h, {study.unit}", study.factor)
-    for y, theory, rate in ((L2, 1, "observed_rate"), (H1, 0, "observed_rate_h1")):
+    for y, theory, rate in ((L2, 1, "observed_rate"), (H1, 0, "observed_rate_h1"), (STRESS, 0, "observed_rate_stress")):
         for title, part in study.panels([row for row in rows if y.value(row) is not None], study.tells):
             figure, panels = new_figure(3, title)
             counts = [draw_curves(study, axes, part, x, y, rate if x is size else None)

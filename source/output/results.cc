@@ -36,10 +36,20 @@ namespace softcell
                                                        "l2_displacement",
                                                        "min_jacobian",
                                                        "converged"};
-    const std::vector<std::string> further_columns  = {
-       "load_factor",          "cell_size",        "smallest_cut",      "load_energy",
-       "stabilization_energy", "condition",        "relative_l2_error", "relative_h1_error",
-       "observed_rate",        "observed_rate_h1", "failure",           "fingerprint"};
+    const std::vector<std::string> further_columns  = {"load_factor",
+                                                       "cell_size",
+                                                       "smallest_cut",
+                                                       "load_energy",
+                                                       "stabilization_energy",
+                                                       "condition",
+                                                       "relative_l2_error",
+                                                       "relative_h1_error",
+                                                       "relative_stress_error",
+                                                       "observed_rate",
+                                                       "observed_rate_h1",
+                                                       "observed_rate_stress",
+                                                       "failure",
+                                                       "fingerprint"};
 
     std::string csv_cell(const std::string &text)
     {

@@ -24,6 +24,7 @@ namespace softcell
       std::vector<double> weights;
       std::vector<Direction> values;
       std::vector<Gradient> gradients;
+      std::vector<unsigned char> labels; // of the material
     };
 
     /// Takes in patches from `patch_number` on until there are enough points.
@@ -48,9 +49,22 @@ namespace softcell
           samples.weights.push_back(patch.weights[q]);
           samples.values.push_back(value);
           samples.gradients.push_back(gradient);
+          samples.labels.push_back(patch.label(q));
         }
       }
       return samples;
+    }
+
+    /// 0 where the law has no value. Units: Pa
+    Matrix3<double> cauchy_stress(const Material &material, const Gradient &gradient)
+    {
+      Matrix3<double> F = identity<double>();
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          F(i, j) += gradient[i][j];
+      return material.visit([&](const auto &law) {
+        return law.is_admissible(determinant(F)) ? law.cauchy_stress(F) : Matrix3<double>();
+      });
     }
 
     double ratio(const double error, const double norm)
@@ -65,6 +79,7 @@ namespace softcell
                                     const Vector &u,
                                     const Discretization &reference,
                                     const Field &field,
+                                    const std::vector<Material> &materials,
                                     const double reach)
     {
       const MPI_Comm communicator = reference.communicator();
@@ -75,6 +90,8 @@ namespace softcell
         l2_norm,
         h1_error,
         h1_norm,
+        stress_error,
+        stress_norm,
         volume,
         missed,
         n_sums
@@ -99,6 +116,11 @@ namespace softcell
           sums[l2_norm] += weight * samples.values[k].norm_square();
           sums[h1_error] += weight * (other.gradients[k] - samples.gradients[k]).norm_square();
           sums[h1_norm] += weight * samples.gradients[k].norm_square();
+          const Material &material = materials[samples.labels[k]];
+          const auto stress        = cauchy_stress(material, samples.gradients[k]);
+          const auto error         = cauchy_stress(material, other.gradients[k]) - stress;
+          sums[stress_error] += weight * double_contraction(error, error);
+          sums[stress_norm] += weight * double_contraction(stress, stress);
         }
         somebody_has_more =
           dealii::Utilities::MPI::logical_or(patch_number < reference.n_patches(), communicator);
@@ -106,7 +128,7 @@ namespace softcell
 
       dealii::Utilities::MPI::sum(View<const double>(sums), communicator, View<double>(sums));
       return {ratio(sums[l2_error], sums[l2_norm]), ratio(sums[h1_error], sums[h1_norm]),
-              sums[missed] / sums[volume]};
+              ratio(sums[stress_error], sums[stress_norm]), sums[missed] / sums[volume]};
     }
   } // namespace
 
@@ -114,25 +136,27 @@ namespace softcell
                         const Vector &u,
                         const Discretization &reference,
                         const Vector &reference_u,
+                        const std::vector<Material> &materials,
                         const double reach)
   {
     const auto field = [&](const Patch &patch, const unsigned int q, const Point &) {
       return std::pair(interpolate(patch.nodes, patch.shapes->value(q), reference_u),
                        interpolate_gradient(patch.nodes, patch.shapes->gradient(q), reference_u));
     };
-    return integrate_difference(discretization, u, reference, field, reach);
+    return integrate_difference(discretization, u, reference, field, materials, reach);
   }
 
   Difference difference(const Discretization &discretization,
                         const Vector &u,
                         const Discretization &points,
                         const ManufacturedSolution &exact,
+                        const std::vector<Material> &materials,
                         const double reach)
   {
     const auto field = [&](const Patch &, unsigned int, const Point &X) {
       return std::pair(exact.displacement(X), exact.gradient(X));
     };
-    return integrate_difference(discretization, u, points, field, reach);
+    return integrate_difference(discretization, u, points, field, materials, reach);
   }
 
   SurfaceDifference surface_difference(const DisplacementField &field,

@@ -32,7 +32,7 @@ namespace softcell
       std::vector<std::string> key = {row.get("method"), row.get("degree"), row.get("cut_levels")};
       for (const std::string &column : columns)
         key.push_back(row.get(column));
-      for (const char *const rate : {"observed_rate", "observed_rate_h1"})
+      for (const char *const rate : {"observed_rate", "observed_rate_h1", "observed_rate_stress"})
         if (!row.get(rate).empty())
           row.set(rate, "");
       if (row.get("converged") == "true" && row.number("cell_size") > 0)
@@ -47,6 +47,7 @@ namespace softcell
       {
         set_rate(*members[i - 1], *members[i], "relative_l2_error", "observed_rate");
         set_rate(*members[i - 1], *members[i], "relative_h1_error", "observed_rate_h1");
+        set_rate(*members[i - 1], *members[i], "relative_stress_error", "observed_rate_stress");
       }
     }
   }

@@ -8,9 +8,8 @@
 #include <softcell/base/files.h>
 #include <softcell/procedures/expected_memory.h>
 #include <softcell/procedures/simulation.h>
-#include <softcell/studies/difference.h>
+#include <softcell/studies/case_errors.h>
 #include <softcell/studies/observed_rates.h>
-#include <softcell/studies/study_cases.h>
 #include <softcell/studies/study_run.h>
 
 #include <deal.II/base/utilities.h>
@@ -22,6 +21,7 @@
 #include <new>
 #include <optional>
 #include <sstream>
+#include <tuple>
 
 namespace softcell
 {
@@ -51,15 +51,6 @@ namespace softcell
       int run();
 
     private:
-      struct Case : StudyRun
-      {
-        std::vector<std::pair<std::string, std::string>> labels;
-        unsigned int reference = 0;
-      };
-
-      void add_case(const std::string &file,
-                    const std::vector<std::string> &settings,
-                    const StudyCase &study_case);
       std::filesystem::path folder_of(const StudyRun &run) const;
       const Body &body_of(const Parameters &parameters);
       /// @param reference whose displacement the run may impose.
@@ -69,12 +60,9 @@ namespace softcell
       void begin();
       void solve_all();
       /// Makes reference_ that of the case, solved, or empty if it does not converge.
-      void provide_reference(const Case &one);
-      void solve_case(Case &one, const std::string &what);
-      void fail(Case &one, const std::string &reason);
-      /// The difference to the manufactured solution or else to the reference.
-      Difference error_of(const Case &one, const Simulation &simulation);
-      void add_errors(const Difference &error, ResultsRow &row);
+      void provide_reference(const CaseRun &one);
+      void solve_case(CaseRun &one, const std::string &what);
+      void fail(CaseRun &one, const std::string &reason);
       void write_table();
       void write_record(const std::string &status, const std::string &message);
       void say_what_is_left();
@@ -84,7 +72,7 @@ namespace softcell
 
       Console &console_;
       Parameters parameters_;
-      std::vector<Case> cases_; // those of the same reference together
+      std::vector<CaseRun> cases_; // those of the same reference together
       std::vector<StudyRun> references_;
       std::filesystem::path folder_;
       std::map<std::string, std::unique_ptr<Body>> bodies_;
@@ -96,42 +84,11 @@ namespace softcell
       Timers timers_;
     };
 
-    /// Reads the file with more settings, of which `what` says where they come from.
-    Parameters read_run(const std::string &file,
-                        std::vector<std::string> settings,
-                        const std::vector<std::string> &more,
-                        const std::string &what)
-    {
-      settings.insert(settings.end(), more.begin(), more.end());
-      try
-      {
-        return read_parameters(file, settings);
-      }
-      catch (const BadInput &error)
-      {
-        throw BadInput(more.empty() ? error.what() : what + ": " + error.what());
-      }
-    }
-
     bool is_thrown_on_all(const std::exception &error)
     {
       return dynamic_cast<const BadInput *>(&error) != nullptr ||
              dynamic_cast<const NotConverged *>(&error) != nullptr ||
              dynamic_cast<const InvertedPoint *>(&error) != nullptr;
-    }
-
-    /// Does a run take its loads from the reference?
-    bool imposes_reference(const Parameters &parameters)
-    {
-      return std::any_of(
-        parameters.load_entries.begin(), parameters.load_entries.end(),
-        [](const auto &entry) { return entry.second.find("reference") != std::string::npos; });
-    }
-
-    Work work_of(const Parameters &parameters, const double points, const double unknowns)
-    {
-      return {parameters.discretization.method + std::to_string(parameters.discretization.degree),
-              points, unknowns};
     }
 
     Study::Study(const std::string &file,
@@ -140,57 +97,16 @@ namespace softcell
                  Console &console)
         : console_(console), parameters_(read_parameters(file, settings))
     {
-      for (const Sweep &sweep : read_sweeps(parameters_.sweeps))
-        for (const Sweep::Choice &choice : sweep.choices)
-          read_run(file, settings, choice.settings, "Sweeps/" + sweep.name + ", " + choice.label);
-      for (const StudyCase &one : study_cases(parameters_))
-        add_case(file, settings, one);
-      std::stable_sort(cases_.begin(), cases_.end(), [](const Case &one, const Case &other) {
-        return one.reference < other.reference;
-      });
-
-      folder_              = parameters_.output.directory.empty()
-                               ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
-                               : std::filesystem::path(parameters_.output.directory);
-      record_.command_line = "softcell";
+      std::tie(cases_, references_) = study_runs(file, settings, parameters_);
+      folder_                       = parameters_.output.directory.empty()
+                                        ? std::filesystem::path("runs") / std::filesystem::path(file).stem()
+                                        : std::filesystem::path(parameters_.output.directory);
+      record_.command_line          = "softcell";
       for (const std::string &word : command_line)
         record_.command_line +=
           word.find(' ') == std::string::npos ? ' ' + word : " '" + word + "'";
       record_.ranks      = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
       record_.parameters = parameters_.entries;
-    }
-
-    void Study::add_case(const std::string &file,
-                         const std::vector<std::string> &settings,
-                         const StudyCase &study_case)
-    {
-      Case one;
-      one.name       = study_case.name;
-      one.labels     = study_case.labels;
-      one.parameters = read_run(file, settings, study_case.settings, "Study, case " + one.name);
-      if (!parameters_.study.reference.empty())
-      {
-        if (one.parameters.loads.manufactured != "none")
-          throw BadInput("Study/Reference = " + parameters_.study.reference +
-                         " is not needed with Loads/Manufactured solution = " +
-                         one.parameters.loads.manufactured + "; remove one of the two.");
-        StudyRun reference;
-        reference.name               = "reference" + study_case.problem;
-        std::vector<std::string> all = study_case.problem_settings;
-        for (const std::string &setting :
-             dealii::Utilities::split_string_list(parameters_.study.reference, ';'))
-          if (!setting.empty())
-            all.push_back(setting);
-        reference.parameters                   = read_run(file, settings, all, "Study/Reference");
-        reference.parameters.output.checkpoint = true;
-        while (one.reference < references_.size() &&
-               own_entries(references_[one.reference].parameters) !=
-                 own_entries(reference.parameters))
-          ++one.reference;
-        if (one.reference == references_.size())
-          references_.push_back(reference);
-      }
-      cases_.push_back(one);
     }
 
     std::filesystem::path Study::folder_of(const StudyRun &run) const
@@ -256,10 +172,10 @@ namespace softcell
       };
       for (StudyRun &reference : references_)
         find(reference, "", "checkpoint.h5");
-      for (Case &one : cases_)
+      for (CaseRun &one : cases_)
         find(one, references_.empty() ? "" : references_[one.reference].fingerprint, "results.csv");
       if (const auto n = std::count_if(cases_.begin(), cases_.end(),
-                                       [](const Case &one) { return one.is_solved(); });
+                                       [](const CaseRun &one) { return one.is_solved(); });
           n > 0)
         console_.say("Solved before with the same parameters and program: " + std::to_string(n) +
                      " of " + std::to_string(cases_.size()) +
@@ -269,7 +185,7 @@ namespace softcell
     void Study::check()
     {
       on_root(MPI_COMM_WORLD, [&] { check_folder(folder_.string()); });
-      for (const Case &one : cases_)
+      for (const CaseRun &one : cases_)
         if (!one.is_solved())
           check_memory(one.parameters, body_of(one.parameters), MPI_COMM_WORLD);
       for (unsigned int i = references_.size(); i-- > 0;) // the first one stays, it is next
@@ -280,7 +196,7 @@ namespace softcell
         }
       for (unsigned int i = 0; i < cases_.size(); ++i)
       {
-        Case &one                = cases_[i];
+        CaseRun &one             = cases_[i];
         const bool has_reference = reference_ && reference_index_ == one.reference;
         if (!one.is_solved() && (has_reference || !imposes_reference(one.parameters)))
           build(one,
@@ -308,7 +224,7 @@ namespace softcell
       on_root(MPI_COMM_WORLD, [&] {
         std::vector<ResultsRow> rows;
         std::vector<std::string> sweeps;
-        for (const Case &one : cases_)
+        for (const CaseRun &one : cases_)
           if (one.is_solved())
             rows.push_back(one.row);
         for (const auto &[name, label] : cases_[0].labels)
@@ -325,7 +241,7 @@ namespace softcell
       record_.message = message;
       record_.wall_s  = timers_.total();
       record_.linear_residuals.clear();
-      for (const Case &one : cases_)
+      for (const CaseRun &one : cases_)
         if (one.is_solved())
           record_.linear_residuals.emplace_back(one.name, one.linear_residuals);
       on_root(MPI_COMM_WORLD, [&] {
@@ -337,7 +253,7 @@ namespace softcell
     bool Study::is_needed(const unsigned int reference) const
     {
       return !references_[reference].is_solved() &&
-             std::any_of(cases_.begin(), cases_.end(), [&](const Case &one) {
+             std::any_of(cases_.begin(), cases_.end(), [&](const CaseRun &one) {
                return one.reference == reference && !one.is_solved();
              });
     }
@@ -387,7 +303,7 @@ namespace softcell
       if (!has_one_run()) // else only once it is built: a mistake leaves no folder behind
         begin();
       for (unsigned int i = 0; i < cases_.size(); ++i)
-        if (Case &one = cases_[i]; !one.is_solved())
+        if (CaseRun &one = cases_[i]; !one.is_solved())
         {
           const std::string what =
             "Case " + std::to_string(i + 1) + " of " + std::to_string(cases_.size()) + ": ";
@@ -409,7 +325,7 @@ namespace softcell
         }
     }
 
-    void Study::provide_reference(const Case &one)
+    void Study::provide_reference(const CaseRun &one)
     {
       StudyRun &run = references_[one.reference];
       if (reference_index_ != one.reference)
@@ -446,7 +362,7 @@ namespace softcell
       keep(run, folder, record_);
     }
 
-    void Study::solve_case(Case &one, const std::string &what)
+    void Study::solve_case(CaseRun &one, const std::string &what)
     {
       const auto simulation = build(one, what, reference_.get());
       begin();
@@ -454,14 +370,15 @@ namespace softcell
       const bool is_solved               = simulation->solve(folder);
       ResultsRow row                     = simulation->row();
       if (is_solved && (reference_ || simulation->exact()))
-        add_errors(error_of(one, *simulation), row);
-      if (is_solved && reference_)
-      {
-        const SurfaceDifference error = surface_difference(
-          simulation->field(), reference_->field(), body_of(one.parameters).surface().vertices());
-        row.set("mean_surface_error", error.mean);
-        row.set("max_surface_error", error.max);
-      }
+        if (const double missed = add_errors(*simulation, reference_.get(), row); missed > 0)
+        {
+          std::ostringstream text;
+          text.precision(2);
+          text << one.name << ": the errors leave out " << 100 * missed
+               << " % of the reference's volume, which no cell is near; give more cells.";
+          console_.warn(text.str());
+          record_.remarks.push_back(text.str());
+        }
       for (const auto &[name, label] : one.labels)
         row.set(name, label);
       for (const std::string &remark : simulation->remarks())
@@ -483,7 +400,7 @@ namespace softcell
       write_record("running", "");
     }
 
-    void Study::fail(Case &one, const std::string &reason)
+    void Study::fail(CaseRun &one, const std::string &reason)
     {
       console_.warn("Failed: " + reason);
       one.row = {}; // without a fingerprint, so that it is tried again
@@ -497,33 +414,6 @@ namespace softcell
         one.row.set(name, label);
       one.row.set("failure", reason);
       write_table();
-    }
-
-    Difference Study::error_of(const Case &one, const Simulation &simulation)
-    {
-      const Discretization &discretization = simulation.discretization();
-      if (!simulation.exact())
-        return difference(discretization, simulation.displacement(), reference_->discretization(),
-                          reference_->displacement(), simulation.reach());
-      const auto points = finer_points(one.parameters.discretization, one.parameters.geometry,
-                                       body_of(one.parameters), discretization.communicator());
-      return difference(discretization, simulation.displacement(), *points, *simulation.exact(),
-                        simulation.reach());
-    }
-
-    void Study::add_errors(const Difference &error, ResultsRow &row)
-    {
-      row.set("relative_l2_error", error.relative_l2);
-      row.set("relative_h1_error", error.relative_h1);
-      if (error.missed > 0)
-      {
-        std::ostringstream text;
-        text.precision(2);
-        text << row.get("case") << ": the errors leave out " << 100 * error.missed
-             << " % of the reference's volume, which no cell is near; give more cells.";
-        console_.warn(text.str());
-        record_.remarks.push_back(text.str());
-      }
     }
 
     void Study::say_what_is_left()

@@ -1,18 +1,73 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Leaves runs in their folders and finds them again.
+// Makes the runs of a study, leaves them in their folders and finds them again.
 
 #include <softcell/studies/study_run.h>
 
 #include <softcell/base/collective.h>
+#include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
 #include <softcell/output/fingerprint.h>
+#include <softcell/studies/study_cases.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <boost/serialization/utility.hpp>
 
+#include <algorithm>
+
 namespace softcell
 {
+  namespace
+  {
+    /// Reads the file with more settings, of which `what` says where they come from.
+    Parameters read_run(const std::string &file,
+                        std::vector<std::string> settings,
+                        const std::vector<std::string> &more,
+                        const std::string &what)
+    {
+      settings.insert(settings.end(), more.begin(), more.end());
+      try
+      {
+        return read_parameters(file, settings);
+      }
+      catch (const BadInput &error)
+      {
+        throw BadInput(more.empty() ? error.what() : what + ": " + error.what());
+      }
+    }
+
+    /// The run that the errors of a case are measured against.
+    StudyRun reference_of(const StudyCase &study_case,
+                          const std::string &reference,
+                          const std::string &file,
+                          const std::vector<std::string> &settings)
+    {
+      std::vector<std::string> all = study_case.problem_settings;
+      for (const std::string &setting : dealii::Utilities::split_string_list(reference, ';'))
+        if (!setting.empty())
+          all.push_back(setting);
+      StudyRun run;
+      run.name                         = "reference" + study_case.problem;
+      run.parameters                   = read_run(file, settings, all, "Study/Reference");
+      run.parameters.output.checkpoint = true;
+      return run;
+    }
+  } // namespace
+
+  bool imposes_reference(const Parameters &parameters)
+  {
+    return std::any_of(
+      parameters.load_entries.begin(), parameters.load_entries.end(),
+      [](const auto &entry) { return entry.second.find("reference") != std::string::npos; });
+  }
+
+  Work work_of(const Parameters &parameters, const double points, const double unknowns)
+  {
+    return {parameters.discretization.method + std::to_string(parameters.discretization.degree),
+            points, unknowns};
+  }
+
   std::vector<ParameterFile::Entry> own_entries(const Parameters &parameters)
   {
     std::vector<ParameterFile::Entry> entries;
@@ -21,6 +76,45 @@ namespace softcell
           entry.first != "Output/Directory")
         entries.push_back(entry);
     return entries;
+  }
+
+  std::pair<std::vector<CaseRun>, std::vector<StudyRun>>
+  study_runs(const std::string &file,
+             const std::vector<std::string> &settings,
+             const Parameters &parameters)
+  {
+    for (const Sweep &sweep : read_sweeps(parameters.sweeps))
+      for (const Sweep::Choice &choice : sweep.choices)
+        read_run(file, settings, choice.settings, "Sweeps/" + sweep.name + ", " + choice.label);
+    std::vector<CaseRun> cases;
+    std::vector<StudyRun> references;
+    for (const StudyCase &study_case : study_cases(parameters))
+    {
+      CaseRun one;
+      one.name       = study_case.name;
+      one.labels     = study_case.labels;
+      one.parameters = read_run(file, settings, study_case.settings, "Study, case " + one.name);
+      if (!parameters.study.reference.empty())
+      {
+        if (one.parameters.loads.manufactured != "none")
+          throw BadInput("Study/Reference = " + parameters.study.reference +
+                         " is not needed with Loads/Manufactured solution = " +
+                         one.parameters.loads.manufactured + "; remove one of the two.");
+        const StudyRun reference =
+          reference_of(study_case, parameters.study.reference, file, settings);
+        while (one.reference < references.size() &&
+               own_entries(references[one.reference].parameters) !=
+                 own_entries(reference.parameters))
+          ++one.reference;
+        if (one.reference == references.size())
+          references.push_back(reference);
+      }
+      cases.push_back(one);
+    }
+    std::stable_sort(cases.begin(), cases.end(), [](const CaseRun &one, const CaseRun &other) {
+      return one.reference < other.reference;
+    });
+    return {cases, references};
   }
 
   void recall(StudyRun &run,

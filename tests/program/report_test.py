@@ -44,7 +44,8 @@ def write_study(folder):
                         "load_steps": levels, "newton_iterations": 5 + k, "linear_iterations": 40,
                         "assembly_s": 1e-3 * 8**levels, "total_s": n**3 / 100, "converged": "true", "load_factor": 1,
                         "cell_size": h, "tip_ux": 0, "tip_uy": 0.05 + h, "tip_uz": 0,
-                        "relative_l2_error": h**2 * (1 + k), "relative_h1_error": h * (1 + k), "tissue": tissue,
+                        "relative_l2_error": h**2 * (1 + k), "relative_h1_error": h * (1 + k),
+                        "relative_stress_error": h * (2 + k), "tissue": tissue,
                         "observed_rate": 2 if n == 8 else ""})
                     residuals[name] = [1, 0.1, 1e-4, 1e-8]
     table[0].update(converged="false", load_factor=0.5, relative_l2_error="", relative_h1_error="",
@@ -89,6 +90,7 @@ def report(folder):
     check(run.returncode == 0, f"report.py: {run.stderr}")
     page, plots = check_page(folder / "made_up" / "report.html", "Bending &amp; more", {
         "cell size h, cm", "unknowns", "time to the solution, s", "relative error in L2, %", "relative error in H1, %",
+        "relative error of the stress, %",
         "cut levels", "one tangent assembly, s", "load steps", "Newton iterations", "iteration", "relative residual",
         "did not converge", "finite cell, soft, 3 levels (2.00)", "tissue: soft", "finite cell, h = 1.25 cm"})
     check(len(plots) >= 8 and "<p>What it is about.</p>" in page, f"{len(plots)} plots")

@@ -30,7 +30,7 @@ namespace softcell
       const auto points =
         finer_points(parameters.discretization, parameters.geometry, *solved.body, MPI_COMM_WORLD);
       return difference(solved.simulation->discretization(), solved.simulation->displacement(),
-                        *points, *solved.simulation->exact(), 0.1);
+                        *points, *solved.simulation->exact(), solved.simulation->materials(), 0.1);
     }
 
     Difference error(const Parameters &parameters)
@@ -45,7 +45,7 @@ namespace softcell
     }
   } // namespace
 
-  /// Theory: p + 1 in L2 and p in H1.
+  /// Theory: p + 1 in L2, p in H1 and of the stress.
   TEST(Manufactured, ElementsOfDegreePHaveOrderPPlusOne)
   {
     struct Sizes
@@ -67,6 +67,8 @@ namespace softcell
                     method.degree + 1, 0.1);
         EXPECT_NEAR(order(at_coarse.relative_h1, at_fine.relative_h1, refinement), method.degree,
                     0.1);
+        EXPECT_NEAR(order(at_coarse.relative_stress, at_fine.relative_stress, refinement),
+                    method.degree, 0.1);
       }
   }
 

@@ -11,7 +11,7 @@ using namespace softcell;
 
 namespace
 {
-  /// Errors h^2 and h^(3/2).
+  /// Errors h^2, h^(3/2) and h.
   ResultsRow row_of(const std::string &method, const double h, const char *const tissue = "soft")
   {
     ResultsRow row;
@@ -20,6 +20,7 @@ namespace
     row.set("cell_size", h);
     row.set("relative_l2_error", h * h);
     row.set("relative_h1_error", std::pow(h, 1.5));
+    row.set("relative_stress_error", h);
     row.set("converged", true);
     return row;
   }
@@ -34,6 +35,7 @@ TEST(ObservedRates, AreTheOrdersInTheCellSizeWhateverTheOrderOfRows)
   {
     EXPECT_NEAR(rows[fine].number("observed_rate"), 2, 1e-12);
     EXPECT_NEAR(rows[fine].number("observed_rate_h1"), 1.5, 1e-12);
+    EXPECT_NEAR(rows[fine].number("observed_rate_stress"), 1, 1e-12);
   }
   for (const unsigned int coarsest : {1, 2})
     EXPECT_EQ(rows[coarsest].get("observed_rate"), "");

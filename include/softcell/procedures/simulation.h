@@ -41,6 +41,19 @@ namespace softcell
 
     /// One clause, with advice.
     std::string reason() const;
+    const Parameters &parameters() const
+    {
+      return parameters_;
+    }
+    const Body &body() const
+    {
+      return body_;
+    }
+    /// One per label.
+    const std::vector<Material> &materials() const
+    {
+      return materials_;
+    }
     const Discretization &discretization() const
     {
       return *discretization_;

@@ -4,27 +4,31 @@
 
 #include <softcell/discretization/methods.h>
 #include <softcell/loads/manufactured_solution.h>
+#include <softcell/mechanics/material.h>
 
 namespace softcell
 {
   /// Errors relative to a reference, over the body as the reference's integration points see it.
   struct Difference
   {
-    double relative_l2 = 0; // |u - u_ref| / |u_ref| in L2
-    double relative_h1 = 0; // the same of the gradients: |grad(u - u_ref)| / |grad u_ref| in L2
-    double missed      = 0; // fraction of the volume that was left out: no cell of the other
-                            // discretization within reach
+    double relative_l2     = 0; // |u - u_ref| / |u_ref| in L2
+    double relative_h1     = 0; // the same of the gradients: |grad(u - u_ref)| / |grad u_ref| in L2
+    double relative_stress = 0; // the same of the Cauchy stresses, over the reference configuration
+    double missed          = 0; // fraction of the volume that was left out: no cell of the other
+                                // discretization within reach
   };
 
-  /// The difference of u on `discretization` from the reference (the norm of Brunet fig. 4.6). The
-  /// two may be partitioned differently over the same ranks; both vectors have ghost values.
-  /// Collective.
+  /// The difference of u on `discretization` from the reference (the norms of Brunet fig. 2.8 and
+  /// 4.6). The two may be partitioned differently over the same ranks; both vectors have ghost
+  /// values. Collective.
+  /// @param materials one per label. Points where a law has no value count as free of stress.
   /// @param reach how far a point of the reference may lie outside the other's cells, which are
   ///              extended up to there. Units: m
   Difference difference(const Discretization &discretization,
                         const Vector &u,
                         const Discretization &reference,
                         const Vector &reference_u,
+                        const std::vector<Material> &materials,
                         double reach);
 
   /// The difference of u from a known displacement, by the points of finer_points(). Collective.
@@ -32,6 +36,7 @@ namespace softcell
                         const Vector &u,
                         const Discretization &points,
                         const ManufacturedSolution &exact,
+                        const std::vector<Material> &materials,
                         double reach);
 
   /// How far vertices of a body's surface are from where a reference has them (Brunet fig. 4.14).

@@ -12,10 +12,10 @@ namespace softcell
   /// Runs all cases of a parameter file and writes results.csv, run.json and the solutions.
   /// Collective.
   ///
-  /// With a reference, every row gets the relative L2 and H1 difference to the reference's
-  /// displacement over the reference's body, or to the manufactured solution if there is one, and
-  /// from the second size of a series on, the observed rates. Where sweeps change the problem
-  /// itself, there is a reference for each problem.
+  /// With a reference, every row gets the relative difference of displacement, gradient and
+  /// stress to the reference's over the reference's body, or to the manufactured solution if there
+  /// is one, and from the second size of a series on, the observed rates. Where sweeps change the
+  /// problem itself, there is a reference for each problem.
   ///
   /// Where there is more than one run, all are built before the first is solved, so that a mistake
   /// in the last one shows at once. A case that fails all the same is a row of its own and not the

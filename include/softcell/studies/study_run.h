@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// One run of a study, and how it is known again in the folder where it was left.
+// The runs of a study, and how each is known again in the folder where it was left.
 #pragma once
 
 #include <softcell/output/results.h>
@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace softcell
@@ -28,6 +29,26 @@ namespace softcell
       return !row.values().empty();
     }
   };
+
+  struct CaseRun : StudyRun
+  {
+    std::vector<std::pair<std::string, std::string>> labels; // name and label of each sweep
+    unsigned int reference = 0;                              // which one it is measured against
+  };
+
+  /// The cases of a parameter file, those of the same reference together, and the references.
+  /// @param settings from the command line, each `Section/Entry = value`.
+  /// @throws BadInput
+  std::pair<std::vector<CaseRun>, std::vector<StudyRun>>
+  study_runs(const std::string &file,
+             const std::vector<std::string> &settings,
+             const Parameters &parameters);
+
+  /// Does a run take its loads from the reference?
+  bool imposes_reference(const Parameters &parameters);
+
+  /// By which the time of a run is guessed from that of others.
+  Work work_of(const Parameters &parameters, double points, double unknowns);
 
   /// The entries of a run that its results depend on: all but those of the study as a whole.
   std::vector<ParameterFile::Entry> own_entries(const Parameters &parameters);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What results.csv says of the error of a case.
+
+#include <softcell/studies/case_errors.h>
+
+#include <softcell/studies/difference.h>
+
+namespace softcell
+{
+  namespace
+  {
+    Difference error_of(const Simulation &simulation, const Simulation *const reference)
+    {
+      const Discretization &discretization = simulation.discretization();
+      if (!simulation.exact())
+        return difference(discretization, simulation.displacement(), reference->discretization(),
+                          reference->displacement(), simulation.materials(), simulation.reach());
+      const auto points =
+        finer_points(simulation.parameters().discretization, simulation.parameters().geometry,
+                     simulation.body(), discretization.communicator());
+      return difference(discretization, simulation.displacement(), *points, *simulation.exact(),
+                        simulation.materials(), simulation.reach());
+    }
+  } // namespace
+
+  double
+  add_errors(const Simulation &simulation, const Simulation *const reference, ResultsRow &row)
+  {
+    const Difference error = error_of(simulation, reference);
+    row.set("relative_l2_error", error.relative_l2);
+    row.set("relative_h1_error", error.relative_h1);
+    row.set("relative_stress_error", error.relative_stress);
+    if (reference)
+    {
+      const SurfaceDifference surface = surface_difference(simulation.field(), reference->field(),
+                                                           simulation.body().surface().vertices());
+      row.set("mean_surface_error", surface.mean);
+      row.set("max_surface_error", surface.max);
+    }
+    return error.missed;
+  }
+} // namespace softcell
