@@ -16,6 +16,8 @@ namespace softcell
 {
   namespace
   {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
     Matrix3<double>
     deformation_gradient(const SurfacePatch &patch, const unsigned int q, const Vector &u)
     {
@@ -136,76 +138,65 @@ namespace softcell
       }
   }
 
-  // With A = d(theta P N)/dF and D = d change/dF it is
-  // gamma N_i N_j - N_i A G_j - N_j A G_i - G_i D G_j.
   void Nitsche::add_tangent(const Vector &u, const double t, BlockMatrix &K) const
   {
-    std::vector<double> values;
-    std::vector<Gradient> AG; // (n) [a][b] = sum_B A_abB G_B
-    std::vector<Gradient> DG; // (n, b) [a][A] = sum_B D_aAbB G_B
+    RowMajor shapes, changes, values;
     for (unsigned int p = 0; p < patches_.size(); ++p)
     {
       const SurfacePatch &patch = patches_[p];
-      const unsigned int n      = patch.nodes.size();
-      values.assign(9 * n * n, 0.);
-      for (unsigned int q = 0; q < patch.points.size(); ++q)
+      const unsigned int n = patch.nodes.size(), n_points = patch.points.size();
+      shapes.resize(4 * n_points, n);
+      changes.resize(12 * n_points, 3 * n); // of component a from row 4 n_points a on
+      values.resize(3 * n, 3 * n);
+      for (unsigned int q = 0; q < n_points; ++q)
       {
-        const double *const N = patch.shapes.value(q);
-        const double *const G = patch.shapes.gradient(q);
-        const Terms at_q      = terms(p, q, u, t);
-        AG.assign(n, Gradient());
-        DG.assign(3 * n, Gradient());
-        for (unsigned int b = 0; b < 3; ++b)
-          for (unsigned int B = 0; B < 3; ++B)
-          {
-            const Derivatives along = derivatives(p, q, at_q, 3 * b + B);
-            for (unsigned int j = 0; j < n; ++j)
-            {
-              for (unsigned int a = 0; a < 3; ++a)
-                AG[j][a][b] += along.traction[a] * G[B * n + j];
-              DG[3 * j + b] += G[B * n + j] * along.change;
-            }
-          }
+        shapes.row(4 * q) = Eigen::Map<const Eigen::RowVectorXd>(patch.shapes.value(q), n);
+        shapes.middleRows<3>(4 * q + 1) =
+          Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>>(
+            patch.shapes.gradient(q), 3, n);
+        const PointTangent M = tangent(p, q, terms(p, q, u, t));
         for (unsigned int a = 0; a < 3; ++a)
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const Direction G_i({G[i], G[n + i], G[2 * n + i]});
-            for (unsigned int b = 0; b < 3; ++b)
-              for (unsigned int j = 0; j < n; ++j)
-              {
-                double value = -N[i] * AG[j][a][b] - N[j] * AG[i][b][a] - DG[3 * j + b][a] * G_i;
-                if (a == b && !displacement_.is_free(a))
-                  value += at_q.stiffness * N[i] * N[j];
-                values[((a * n + i) * 3 + b) * n + j] += patch.weights[q] * value;
-              }
-          }
+          for (unsigned int b = 0; b < 3; ++b)
+            changes.block(4 * (n_points * a + q), b * n, 4, n) =
+              M.block<4, 4>(4 * a, 4 * b).lazyProduct(shapes.middleRows<4>(4 * q));
       }
+      for (unsigned int a = 0; a < 3; ++a)
+        values.middleRows(a * n, n).noalias() =
+          shapes.transpose() * changes.middleRows(4 * n_points * a, 4 * n_points);
       K.add(patch.nodes, values.data());
     }
   }
 
-  Nitsche::Derivatives Nitsche::derivatives(const unsigned int p,
-                                            const unsigned int q,
-                                            const Terms &at_q,
-                                            const unsigned int entry) const
+  Nitsche::PointTangent
+  Nitsche::tangent(const unsigned int p, const unsigned int q, const Terms &at_q) const
   {
-    const double step = 1e-6; // no law offers third derivatives of its energy
-    Matrix3<double> along{};
-    along.entries[entry] = 1;
-    Derivatives result;
+    const double step  = 1e-6; // no law offers third derivatives of its energy
+    const Direction &N = patches_[p].normals[q];
+    PointTangent M     = PointTangent::Zero();
     materials_[patches_[p].labels[q]].visit([&](const auto &law) {
-      const Matrix3<double> dP         = law.linearisation(at_q.F)(along);
-      const Matrix3<double> difference = law.linearisation(at_q.F + step * along)(at_q.misfit_N) -
-                                         law.linearisation(at_q.F - step * along)(at_q.misfit_N);
-      for (unsigned int a = 0; a < 3; ++a)
-      {
-        if (!displacement_.is_free(a))
-          result.traction[a] = factors_[p].flux * dot(dP, a, patches_[p].normals[q].begin_raw());
-        for (unsigned int b = 0; b < 3; ++b)
-          result.change[a][b] = difference(a, b) / (2 * step);
-      }
+      const auto linearisation = law.linearisation(at_q.F);
+      for (unsigned int b = 0; b < 3; ++b)
+        for (unsigned int B = 0; B < 3; ++B)
+        {
+          Matrix3<double> dF{};
+          dF(b, B)                         = 1;
+          const unsigned int column        = 4 * b + 1 + B;
+          const Matrix3<double> dP         = linearisation(dF);
+          const Matrix3<double> difference = law.linearisation(at_q.F + step * dF)(at_q.misfit_N) -
+                                             law.linearisation(at_q.F - step * dF)(at_q.misfit_N);
+          for (unsigned int a = 0; a < 3; ++a)
+          {
+            if (!displacement_.is_free(a))
+              M(4 * a, column) = M(column, 4 * a) = -factors_[p].flux * dot(dP, a, N.begin_raw());
+            for (unsigned int A = 0; A < 3; ++A)
+              M(4 * a + 1 + A, column) = -difference(a, A) / (2 * step);
+          }
+        }
     });
-    return result;
+    for (unsigned int a = 0; a < 3; ++a)
+      if (!displacement_.is_free(a))
+        M(4 * a, 4 * a) = at_q.stiffness;
+    return patches_[p].weights[q] * M;
   }
 
   double Nitsche::energy(const Vector &u, const double t) const

@@ -5,6 +5,8 @@
 #include <softcell/loads/supports.h>
 #include <softcell/mechanics/material.h>
 
+#include <Eigen/Core>
+
 namespace softcell
 {
   /// Nitsche's method for finite strain, from the potential
@@ -70,14 +72,12 @@ namespace softcell
       double stiffness;         // gamma. Units: Pa/m
     };
     Terms terms(unsigned int patch, unsigned int q, const Vector &u, double t) const;
-    /// How they change with one of the nine entries of F.
-    struct Derivatives
-    {
-      Direction traction;
-      Gradient change;
-    };
-    Derivatives
-    derivatives(unsigned int patch, unsigned int q, const Terms &at_q, unsigned int entry) const;
+    /// The point's part of the tangent, weight included: with s_i = (N_i, dN_i/dX) of node i, its
+    /// entry for component a of node i and component b of node j is s_i M_ab s_j, where M_ab are
+    /// blocks of four rows and columns,
+    ///   [ gamma, -d traction_a / dF_b ; -d traction_b / dF_a, -d change_a / dF_b ].
+    using PointTangent = Eigen::Matrix<double, 12, 12>;
+    PointTangent tangent(unsigned int patch, unsigned int q, const Terms &at_q) const;
     void check_admissible(const Vector &u) const;
 
     const std::vector<Material> &materials_;
