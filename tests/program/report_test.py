@@ -94,6 +94,7 @@ def report(folder):
         "cut levels", "one tangent assembly, s", "load steps", "Newton iterations", "iteration", "relative residual",
         "did not converge", "finite cell, soft, 3 levels (2.00)", "tissue: soft", "finite cell, h = 1.25 cm"})
     check(len(plots) >= 8 and "<p>What it is about.</p>" in page, f"{len(plots)} plots")
+    check("<h2>Time to an error</h2>" in page, "what each method takes to an error")
     check("of which 2 did not converge" in page and "<tr class=failed>" in page, "what failed is marked")
     check("no step &lt;gains&gt; anything" in page and "stiff &amp; hard" in page, "texts are escaped")
 
