@@ -47,7 +47,7 @@ HEADS = {"method": "method", "degree": "degree", "cut_levels": "cut<br>levels", 
          "load_steps": "load<br>steps", "newton_iterations": "Newton<br>iterations",
          "linear_iterations": "linear<br>iterations", "assembly_s": "assembly,<br>s", "total_s": "total,<br>s",
          "l2": "error in<br>L2, %", "observed_rate": "order", "h1": "error in<br>H1, %", "observed_rate_h1": "order",
-         "stress": "error of<br>stress, %", "observed_rate_stress": "order", "failure": "load<br>reached"}
+         "stress": "error of<br>stress, %", "failure": "load<br>reached"}
 
 
 def summary(study):
