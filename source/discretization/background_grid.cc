@@ -28,11 +28,14 @@ namespace softcell
       return text.str();
     }
 
-    /// 20 bits an axis number the cells, of which 4 are kept for the refinement.
-    void check_countable(const std::array<double, 3> &cells, const GridParameters &parameters)
+    /// 20 bits an axis number the finest cells.
+    void check_countable(const std::array<double, 3> &cells,
+                         const GridParameters &parameters,
+                         const int coarsest_size)
     {
       const double n = cells[0] * cells[1] * cells[2];
-      if (n < std::pow(2., 31) && std::max({cells[0], cells[1], cells[2]}) < 65536)
+      if (n < std::pow(2., 31) &&
+          std::max({cells[0], cells[1], cells[2]}) * coarsest_size < std::pow(2., 20))
         return;
       std::ostringstream text;
       text << grid_entry(parameters) << " makes a grid of " << cells[0] << " x " << cells[1]
@@ -94,6 +97,14 @@ namespace softcell
     return cell;
   }
 
+  Lattice::Cell Lattice::leaf(const Index &index) const
+  {
+    Cell cell = ancestor(index, coarsest_size);
+    while (halved.count(key(cell)) > 0)
+      cell = ancestor(index, cell.size / 2);
+    return cell;
+  }
+
   std::uint64_t Lattice::key(const Cell &cell)
   {
     std::uint64_t key = 0;
@@ -107,12 +118,16 @@ namespace softcell
   BackgroundGrid::BackgroundGrid(const GridParameters &parameters,
                                  const Body &body,
                                  const double cut_work,
-                                 MPI_Comm communicator)
-      : triangulation_(std::make_unique<Triangulation>(communicator)),
-        coarsest_size_(1 << parameters.surface_refinement)
+                                 MPI_Comm communicator,
+                                 const Refinement &refinement)
+      : triangulation_(std::make_unique<Triangulation>(communicator))
   {
+    lattice_.coarsest_size = 1 << (parameters.surface_refinement + refinement.size());
     make_octree(lay_lattice(parameters, body.bounding_box()));
-    refine_towards_surface(body);
+    refine_towards_surface(body, parameters.surface_refinement);
+    for (const std::vector<Point> &points : refinement)
+      refine_at(points);
+    note_halved();
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
       balance(parameters, body, cut_work);
 
@@ -163,12 +178,12 @@ namespace softcell
                                                           const Box &body)
   {
     const std::array<double, 3> n = grid_cells(parameters, body, lattice_.spacing);
-    check_countable(n, parameters);
+    check_countable(n, parameters, lattice_.coarsest_size);
 
     const Point centre = body.center();
     for (unsigned int d = 0; d < dim; ++d)
       lattice_.origin[d] = centre[d] - n[d] / 2 * lattice_.spacing[d];
-    lattice_.spacing /= coarsest_size_;
+    lattice_.spacing /= lattice_.coarsest_size;
     return {{static_cast<unsigned int>(n[0]), static_cast<unsigned int>(n[1]),
              static_cast<unsigned int>(n[2])}};
   }
@@ -197,7 +212,7 @@ namespace softcell
     Point upper = lattice_.origin;
     for (unsigned int d = 0; d < dim; ++d)
       upper[d] +=
-        (double(roots[d]) * (1u << coarsest_level_)) * coarsest_size_ * lattice_.spacing[d];
+        (double(roots[d]) * (1u << coarsest_level_)) * lattice_.coarsest_size * lattice_.spacing[d];
     dealii::GridGenerator::subdivided_hyper_rectangle(*triangulation_, roots, lattice_.origin,
                                                       upper);
     triangulation_->refine_global(coarsest_level_);
@@ -206,17 +221,18 @@ namespace softcell
   Lattice::Cell BackgroundGrid::place(const Point &lower_corner, const int level) const
   {
     Lattice::Cell cell;
-    cell.size = coarsest_size_ >> (level - coarsest_level_);
+    cell.size = lattice_.coarsest_size >> (level - coarsest_level_);
     for (unsigned int d = 0; d < dim; ++d)
       cell.lower[d] =
         static_cast<int>(std::lround((lower_corner[d] - lattice_.origin[d]) / lattice_.spacing[d]));
     return cell;
   }
 
-  void BackgroundGrid::refine_towards_surface(const Body &body)
+  void BackgroundGrid::refine_towards_surface(const Body &body, const unsigned int n_times)
   {
-    for (int size = coarsest_size_; size > 1; size /= 2)
+    for (unsigned int time = 0; time < n_times; ++time)
     {
+      const int size = lattice_.coarsest_size >> time;
       for (const auto &cell : triangulation_->active_cell_iterators())
         if (cell->is_locally_owned())
         {
@@ -232,6 +248,36 @@ namespace softcell
         }
       triangulation_->execute_coarsening_and_refinement();
     }
+  }
+
+  void BackgroundGrid::refine_at(const std::vector<Point> &points)
+  {
+    std::unordered_set<std::uint64_t> around; // cells of all sizes that hold one of the points
+    for (const Point &X : points)
+      for (int size = lattice_.coarsest_size; size > 1; size /= 2)
+        around.insert(Lattice::key(Lattice::ancestor(lattice_.index(X), size)));
+    for (const auto &cell : triangulation_->active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          around.count(Lattice::key(place(cell->vertex(0), cell->level()))) > 0)
+        cell->set_refine_flag();
+    triangulation_->execute_coarsening_and_refinement();
+  }
+
+  void BackgroundGrid::note_halved()
+  {
+    std::unordered_set<std::uint64_t> here;
+    for (const auto &leaf : triangulation_->active_cell_iterators())
+      if (leaf->is_locally_owned())
+        for (Triangulation::cell_iterator cell = leaf; cell->level() > coarsest_level_;)
+        {
+          cell = cell->parent();
+          if (!here.insert(Lattice::key(place(cell->vertex(0), cell->level()))).second)
+            break; // as are those above
+        }
+    const std::vector<std::uint64_t> keys(here.begin(), here.end());
+    for (const auto &some :
+         dealii::Utilities::MPI::all_gather(triangulation_->get_communicator(), keys))
+      lattice_.halved.insert(some.begin(), some.end());
   }
 
   Side BackgroundGrid::side(const Lattice::Cell &cell,

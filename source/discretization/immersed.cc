@@ -29,7 +29,8 @@ namespace softcell
                      const GridParameters &grid_parameters,
                      const CutParameters &cut,
                      const Body &body,
-                     MPI_Comm communicator)
+                     MPI_Comm communicator,
+                     const Refinement &refinement)
       : body_(body),
         alpha_(cut.alpha),
         ghost_penalty_(cut.ghost_penalty),
@@ -40,9 +41,8 @@ namespace softcell
     gauss_points_  = gauss.get_points();
     gauss_weights_ = gauss.get_weights();
 
-    const BackgroundGrid grid(grid_parameters, body, rule_->work(), communicator);
+    const BackgroundGrid grid(grid_parameters, body, rule_->work(), communicator, refinement);
     lattice_                                      = grid.lattice();
-    coarsest_size_                                = grid.coarsest_size();
     const std::vector<BackgroundGrid::Cell> taken = take_cells(grid, communicator);
 
     double volume = 0;
@@ -94,7 +94,7 @@ namespace softcell
 
   void Immersed::make_tables()
   {
-    for (int size = 1; size <= coarsest_size_; size *= 2)
+    for (int size = 1; size <= lattice_.coarsest_size; size *= 2)
     {
       const Direction edges = size * lattice_.spacing;
       tables_.emplace_back();
@@ -140,7 +140,7 @@ namespace softcell
     all.integration_points = dealii::Utilities::MPI::sum(mine.integration_points, communicator());
     all.smallest_cut       = dealii::Utilities::MPI::min(mine.smallest_cut, communicator());
     all.unknowns           = partitioner_->size();
-    all.cell_size          = std::cbrt(lattice_.box({{{0, 0, 0}}, coarsest_size_}).volume());
+    all.cell_size = std::cbrt(lattice_.box({{{0, 0, 0}}, lattice_.coarsest_size}).volume());
     return all;
   }
 
@@ -247,13 +247,10 @@ namespace softcell
     condense(own.gradients, table.gradients);
   }
 
-  unsigned int Immersed::owned_cell(const Lattice::Index &index) const
+  unsigned int Immersed::owned_cell(const Lattice::Cell &place) const
   {
-    for (int size = 1; size <= coarsest_size_; size *= 2)
-      if (const auto cell = cell_of_.find(Lattice::key(Lattice::ancestor(index, size)));
-          cell != cell_of_.end())
-        return cell->second;
-    return none;
+    const auto cell = cell_of_.find(Lattice::key(place));
+    return cell == cell_of_.end() ? none : cell->second;
   }
 
   double Immersed::distance(const Point &X, const Lattice::Cell &cell) const
@@ -267,7 +264,7 @@ namespace softcell
 
   std::optional<PointShapes> Immersed::shapes_at(const Point &X, const double reach) const
   {
-    unsigned int nearest    = owned_cell(lattice_.index(X));
+    unsigned int nearest    = owned_cell(lattice_.leaf(lattice_.index(X)));
     double nearest_distance = std::max(
       reach, 1e-9 * std::min({lattice_.spacing[0], lattice_.spacing[1], lattice_.spacing[2]}));
     if (nearest != none)
@@ -281,15 +278,15 @@ namespace softcell
           nearest_distance = d;
         }
       };
-      // the finest cells within reach, or all cells of this rank, whichever are fewer
+      // the cells within reach, or all of this rank, whichever are fewer
       const Direction r({nearest_distance, nearest_distance, nearest_distance});
       const Box around({Point(X - r), Point(X + r)});
-      double n_finest = 1;
+      double n_around = 1;
       for (unsigned int d = 0; d < dim; ++d)
-        n_finest *= around.side_length(d) / lattice_.spacing[d] + 1;
-      if (n_finest < cells_.size())
-        lattice_.for_each_index(around, [&](const Lattice::Index &index) {
-          if (const unsigned int cell = owned_cell(index); cell != none)
+        n_around *= around.side_length(d) / (lattice_.coarsest_size * lattice_.spacing[d]) + 1;
+      if (n_around < cells_.size())
+        lattice_.for_each_leaf(around, [&](const Lattice::Cell &place) {
+          if (const unsigned int cell = owned_cell(place); cell != none)
             try_cell(cell);
         });
       else

@@ -10,8 +10,11 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_tools.h>
+
+#include <deal.II/hp/fe_collection.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -71,10 +74,22 @@ namespace softcell
   void Immersed::number_nodes(const BackgroundGrid &grid,
                               const std::vector<BackgroundGrid::Cell> &taken)
   {
+    // cells beside the body have no nodes, so that none hangs on them
+    constexpr unsigned int nothing = 1;
     dealii::DoFHandler<3> dofs(grid.triangulation());
-    dofs.distribute_dofs(dealii::FE_Q<3>(degree()));
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        cell->set_active_fe_index(nothing);
+    const auto cell_of = [&](const BackgroundGrid::Cell &cell) {
+      return dealii::DoFHandler<3>::active_cell_iterator(&grid.triangulation(), cell.level,
+                                                         cell.index, &dofs);
+    };
+    for (const BackgroundGrid::Cell &cell : taken)
+      cell_of(cell)->set_active_fe_index(0);
+    dofs.distribute_dofs(
+      dealii::hp::FECollection<3>(dealii::FE_Q<3>(degree()), dealii::FE_Nothing<3>()));
     dealii::AffineConstraints<double> hanging;
-    if (coarsest_size_ > 1)
+    if (lattice_.coarsest_size > 1)
       hanging = hanging_nodes(dofs);
 
     // the degrees of freedom of each cell, along x first, and what hanging ones depend on
@@ -82,9 +97,7 @@ namespace softcell
     std::vector<Dof> cell_dofs, own(shapes_.n_nodes()), unordered(own.size());
     for (unsigned int i = 0; i < cells_.size(); ++i)
     {
-      const dealii::DoFHandler<3>::active_cell_iterator cell(&grid.triangulation(), taken[i].level,
-                                                             taken[i].index, &dofs);
-      cell->get_dof_indices(unordered);
+      cell_of(taken[i])->get_dof_indices(unordered);
       for (unsigned int k = 0; k < own.size(); ++k)
         own[k] = unordered[order[k]];
 
@@ -118,7 +131,7 @@ namespace softcell
     for (Vector &component : positions)
       component.reinit(dof_partitioner);
     for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && cell->active_fe_index() != nothing)
       {
         const Box box = lattice_.box(grid.place(cell->vertex(0), cell->level()));
         cell->get_dof_indices(unordered);

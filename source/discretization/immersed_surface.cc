@@ -53,35 +53,30 @@ namespace softcell
     return triangles;
   }
 
-  bool Immersed::is_active(const Lattice::Index &index) const
+  bool Immersed::is_active(const Lattice::Cell &place) const
   {
-    if (owned_cell(index) != none)
-      return true;
-    for (int size = 1; size <= coarsest_size_; size *= 2)
-      if (everyones_cut_cells_.count(Lattice::key(Lattice::ancestor(index, size))) > 0)
-        return true;
-    return side_of(body_, lattice_.box({index, 1})) == Side::inside;
+    return owned_cell(place) != none || everyones_cut_cells_.count(Lattice::key(place)) > 0 ||
+           side_of(body_, lattice_.box(place)) == Side::inside;
   }
 
-  std::optional<Lattice::Index> Immersed::nearest_active(const Lattice::Index &index,
-                                                         const Point &X) const
+  std::optional<Lattice::Cell> Immersed::nearest_active(const Lattice::Cell &place,
+                                                        const Point &X) const
   {
-    std::optional<Lattice::Index> nearest;
+    std::optional<Lattice::Cell> nearest;
     double nearest_distance = 0;
-    for (int k = -1; k <= 1; ++k)
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-        {
-          const Lattice::Index next = {{index[0] + i, index[1] + j, index[2] + k}};
-          if (!is_active(next))
-            continue;
-          const double d = distance(X, {next, 1});
-          if (!nearest || d < nearest_distance)
-          {
-            nearest          = next;
-            nearest_distance = d;
-          }
-        }
+    Lattice::Cell block{place.lower, 3 * place.size};
+    for (int &i : block.lower)
+      i -= place.size;
+    Box around = lattice_.box(block);
+    around.extend(-0.5 * smallest(lattice_.spacing)); // its sides are those of other cells too
+    lattice_.for_each_leaf(around, [&](const Lattice::Cell &near) {
+      const double d = distance(X, near);
+      if ((!nearest || d < nearest_distance) && is_active(near))
+      {
+        nearest          = near;
+        nearest_distance = d;
+      }
+    });
     return nearest;
   }
 
@@ -100,21 +95,22 @@ namespace softcell
       for (Point &corner : corners)
         corner += shift;
       const Box box(corners);
-      const bool in_one = lattice_.index(box.get_boundary_points().first) ==
-                          lattice_.index(box.get_boundary_points().second);
+      const auto &[lower, upper] = box.get_boundary_points();
+      const bool in_one =
+        lattice_.leaf(lattice_.index(lower)).lower == lattice_.leaf(lattice_.index(upper)).lower;
 
-      lattice_.for_each_index(box, [&](const Lattice::Index &index) {
-        unsigned int cell = owned_cell(index);
-        if (cell == none && is_active(index))
+      lattice_.for_each_leaf(box, [&](const Lattice::Cell &place) {
+        unsigned int cell = owned_cell(place);
+        if (cell == none && is_active(place))
           return; // another rank's
         std::vector<Point> polygon(corners.begin(), corners.end());
         if (!in_one)
-          polygon = clip(corners, lattice_.box({index, 1}));
+          polygon = clip(corners, lattice_.box(place));
         if (polygon_area(polygon) < negligible) // a cell that it only touches
           return;
         if (cell == none)
         {
-          const auto near = nearest_active(index, polygon[0]);
+          const auto near = nearest_active(place, polygon[0]);
           if (near)
             cell = owned_cell(*near);
           else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Counts, nodes and shapes of immersed discretizations.
 
+#include "linear_defect.h"
+
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/shapes.h>
@@ -30,45 +32,6 @@ namespace softcell
         for (const double w : immersed.patch(i, storage).weights)
           volume += w;
       return dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
-    }
-
-    // Largest violation of sum N = 1, sum grad N = 0, sum X N = X, sum X grad N = I over all
-    // points.
-    double linear_defect(const Immersed &immersed)
-    {
-      PatchStorage storage;
-      std::vector<Point> points;
-      double defect = 0;
-      for (unsigned int i = 0; i < immersed.n_patches(); ++i)
-      {
-        const Patch patch = immersed.patch(i, storage);
-        immersed.patch_points(i, points);
-        EXPECT_EQ(points.size(), patch.n_points());
-        for (unsigned int q = 0; q < patch.n_points(); ++q)
-        {
-          double unity = -1;
-          Direction X  = -1. * points[q], none;
-          dealii::Tensor<2, 3> F;
-          for (unsigned int k = 0; k < patch.n_nodes(); ++k)
-          {
-            const double N = patch.shapes->value(q)[k];
-            const Point &Y = immersed.node_positions()[patch.nodes[k]];
-            unity += N;
-            X += N * Y;
-            for (unsigned int d = 0; d < 3; ++d)
-            {
-              const double dN = patch.shapes->gradient(q)[d * patch.n_nodes() + k];
-              none[d] += dN;
-              for (unsigned int c = 0; c < 3; ++c)
-                F[c][d] += Y[c] * dN;
-            }
-          }
-          for (unsigned int d = 0; d < 3; ++d)
-            F[d][d] -= 1;
-          defect = std::max({defect, std::abs(unity), X.norm(), none.norm(), F.norm()});
-        }
-      }
-      return dealii::Utilities::MPI::max(defect, MPI_COMM_WORLD);
     }
   } // namespace
 

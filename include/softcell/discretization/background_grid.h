@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <unordered_set>
 #include <vector>
 
 namespace dealii::parallel::distributed
@@ -39,7 +40,12 @@ namespace softcell
   /// @throws BadInput
   std::array<double, 3> grid_cells(const GridParameters &parameters, const Box &body, Direction &h);
 
-  /// The finest cells of an octree grid, counted along the axes from a corner of its box.
+  /// Points whose cells are halved, round after round, beyond what the parameters ask for. The same
+  /// on all ranks.
+  using Refinement = std::vector<std::vector<Point>>;
+
+  /// The cells of an octree on all ranks, counted along the axes in finest cells from a corner of
+  /// the grid's box.
   struct Lattice
   {
     using Index = std::array<int, 3>;
@@ -53,7 +59,9 @@ namespace softcell
     };
 
     Point origin;
-    Direction spacing; // edges of a finest cell. Units: m
+    Direction spacing;                        // edges of a finest cell. Units: m
+    int coarsest_size = 1;                    // edge length of the largest cells in finest cells
+    std::unordered_set<std::uint64_t> halved; // key() of the cells that have parts
 
     Box box(const Cell &cell) const;
 
@@ -63,20 +71,44 @@ namespace softcell
     /// The cell of edge length `size` that holds a finest cell.
     static Cell ancestor(const Index &index, int size);
 
-    /// Calls f(Index) for every finest cell that holds some of the box.
+    /// The cell without parts that holds a finest cell.
+    Cell leaf(const Index &index) const;
+
+    /// Calls f(Cell) for every cell without parts that holds some of the box.
     template <class F>
-    void for_each_index(const Box &box, const F &f) const
+    void for_each_leaf(const Box &box, const F &f) const
     {
       const Index first = index(box.get_boundary_points().first);
       const Index last  = index(box.get_boundary_points().second);
-      for (int k = first[2]; k <= last[2]; ++k)
-        for (int j = first[1]; j <= last[1]; ++j)
-          for (int i = first[0]; i <= last[0]; ++i)
-            f(Index{{i, j, k}});
+      const Index begin = ancestor(first, coarsest_size).lower;
+      for (int k = begin[2]; k <= last[2]; k += coarsest_size)
+        for (int j = begin[1]; j <= last[1]; j += coarsest_size)
+          for (int i = begin[0]; i <= last[0]; i += coarsest_size)
+            visit_leaves({{{i, j, k}}, coarsest_size}, first, last, f);
     }
 
     /// A number for each cell.
     static std::uint64_t key(const Cell &cell);
+
+  private:
+    template <class F>
+    void visit_leaves(const Cell &cell, const Index &first, const Index &last, const F &f) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (cell.lower[d] > last[d] || cell.lower[d] + cell.size <= first[d])
+          return;
+      if (halved.count(key(cell)) == 0)
+      {
+        f(cell);
+        return;
+      }
+      const int size        = cell.size / 2;
+      const auto &[x, y, z] = cell.lower;
+      for (const int k : {z, z + size})
+        for (const int j : {y, y + size})
+          for (const int i : {x, x + size})
+            visit_leaves({{{i, j, k}}, size}, first, last, f);
+    }
   };
 
   /// A p4est octree of hexahedra around a body, and which of its cells the body touches.
@@ -84,8 +116,9 @@ namespace softcell
   /// The box around the body gets cubic cells, `cells` of them across its shortest side; along the
   /// others it is enlarged on both sides to a whole number of cells. The octree may reach beyond
   /// the box, so that it has few roots. Towards the surface cells are halved `surface_refinement`
-  /// times, and so are all that lie half a cell from it, so that cut cells have no hanging nodes.
-  /// Each rank owns about the same work.
+  /// times, and so are all that lie half a cell from it, so that cut cells have no hanging nodes;
+  /// then where a Refinement asks for it. A cell is at most twice as large as its neighbours. Each
+  /// rank owns about the same work.
   class BackgroundGrid
   {
   public:
@@ -104,7 +137,8 @@ namespace softcell
     BackgroundGrid(const GridParameters &parameters,
                    const Body &body,
                    double cut_work,
-                   MPI_Comm communicator);
+                   MPI_Comm communicator,
+                   const Refinement &refinement = {});
     ~BackgroundGrid();
 
     const Triangulation &triangulation() const
@@ -114,11 +148,6 @@ namespace softcell
     const Lattice &lattice() const
     {
       return lattice_;
-    }
-    /// Edge length of the largest cells in finest cells.
-    int coarsest_size() const
-    {
-      return coarsest_size_;
     }
     const std::vector<Cell> &cells() const
     {
@@ -131,13 +160,15 @@ namespace softcell
     /// Lays the lattice around the body and returns the number of unrefined cells along each axis.
     std::array<unsigned int, 3> lay_lattice(const GridParameters &parameters, const Box &body);
     void make_octree(const std::array<unsigned int, 3> &cells);
-    void refine_towards_surface(const Body &body);
+    void refine_towards_surface(const Body &body, unsigned int n_times);
+    void refine_at(const std::vector<Point> &points);
+    /// Tells all ranks which cells have parts.
+    void note_halved();
     void balance(const GridParameters &parameters, const Body &body, double cut_work);
     Side side(const Lattice::Cell &cell, const GridParameters &parameters, const Body &body) const;
 
     std::unique_ptr<Triangulation> triangulation_;
     Lattice lattice_;
-    int coarsest_size_;
     int coarsest_level_; // of the triangulation
     std::vector<Cell> cells_;
   };

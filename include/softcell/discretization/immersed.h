@@ -38,7 +38,8 @@ namespace softcell
              const GridParameters &grid,
              const CutParameters &cut,
              const Body &body,
-             MPI_Comm communicator);
+             MPI_Comm communicator,
+             const Refinement &refinement = {});
     ~Immersed() override;
 
     Size size() const override;
@@ -133,8 +134,8 @@ namespace softcell
     /// Shapes of a cell's nodes at points of its unit cube.
     void evaluate(unsigned int cell, const std::vector<Point> &points, ShapeTable &table) const;
 
-    /// This rank's active cell that covers a finest cell, none if there is none.
-    unsigned int owned_cell(const Lattice::Index &index) const;
+    /// This rank's active cell at a place, none if there is none.
+    unsigned int owned_cell(const Lattice::Cell &place) const;
     /// Distance of a point from a cell, 0 inside. Units: m
     double distance(const Point &X, const Lattice::Cell &cell) const;
 
@@ -142,10 +143,10 @@ namespace softcell
     /// The pieces of these triangles in this rank's cells.
     /// @param lost  area beyond reach of all active cells, the same on all ranks. Units: m^2
     std::vector<Piece> pieces(const std::vector<unsigned int> &triangles, double &lost) const;
-    /// Does an active cell of any rank cover this finest cell?
-    bool is_active(const Lattice::Index &index) const;
-    /// The active finest cell next to this one that is nearest to X.
-    std::optional<Lattice::Index> nearest_active(const Lattice::Index &index, const Point &X) const;
+    /// Is this cell without parts an active one of any rank?
+    bool is_active(const Lattice::Cell &place) const;
+    /// The active cell nearest to X of those no farther from a place than its own size.
+    std::optional<Lattice::Cell> nearest_active(const Lattice::Cell &place, const Point &X) const;
     /// The nodes of a cell's face on the plane of a triangle, nothing if that is no face of the
     /// cell.
     std::optional<std::vector<unsigned int>> face_nodes(const Piece &piece) const;
@@ -155,7 +156,6 @@ namespace softcell
     TensorShapes shapes_;
     std::unique_ptr<CutRule> rule_;
     Lattice lattice_;
-    int coarsest_size_ = 1;
 
     std::vector<Cell> cells_;
     std::vector<GhostFace> ghost_faces_;
