@@ -102,4 +102,18 @@ namespace softcell
       }
     return result;
   }
+
+  Vector transferred(const Discretization &from,
+                     const Vector &u,
+                     const Discretization &to,
+                     const double reach)
+  {
+    const PointValues values = evaluate(from, u, to.node_positions(), reach);
+    Vector result            = to.make_vector();
+    for (unsigned int node = 0; node < to.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        result.local_element(3 * node + c) = values.displacements[node][c];
+    result.update_ghost_values();
+    return result;
+  }
 } // namespace softcell

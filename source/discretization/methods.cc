@@ -3,6 +3,7 @@
 
 #include <softcell/discretization/methods.h>
 
+#include <softcell/base/exceptions.h>
 #include <softcell/discretization/fitted.h>
 #include <softcell/discretization/immersed.h>
 
@@ -29,6 +30,20 @@ namespace softcell
     grid.add_parameters(prm);
     cut.add_parameters(prm);
     mesh.add_parameters(prm);
+    refinement.add_parameters(prm);
+  }
+
+  void RefinementParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "Refinement steps", steps,
+      "How often the problem is solved again on a background grid of degree 1 whose "
+      "cells are halved where the estimated error of the stress is largest.",
+      dealii::Patterns::Integer(0, 8));
+    prm.add_parameter("Refined fraction", fraction,
+                      "At each of the refinement steps the fewest cells are halved that hold this "
+                      "part of the squared error; 1 halves all. Units: 1",
+                      dealii::Patterns::Double(0.01, 1));
   }
 
   std::vector<std::string> method_names()
@@ -48,9 +63,16 @@ namespace softcell
                                                       const GeometryParameters &geometry,
                                                       const Body &body,
                                                       MPI_Comm communicator,
-                                                      std::vector<std::string> &remarks)
+                                                      std::vector<std::string> &remarks,
+                                                      const Refinement &refinement)
   {
-    if (parameters.method == "tetrahedra" || parameters.method == "hexahedra")
+    const bool is_mesh = parameters.method == "tetrahedra" || parameters.method == "hexahedra";
+    if (parameters.refinement.steps > 0 && (is_mesh || parameters.degree > 1))
+      throw BadInput("Discretization/Refinement steps = " +
+                     std::to_string(parameters.refinement.steps) + " is not available for " +
+                     parameters.method + " of degree " + std::to_string(parameters.degree) +
+                     ", only for background grids of degree 1; set it to 0.");
+    if (is_mesh)
       return std::make_unique<Fitted>(
         communicator,
         make_mesh(communicator,
@@ -58,6 +80,6 @@ namespace softcell
                   parameters.grid.cells, parameters.mesh, geometry, body, remarks),
         parameters.degree, body);
     return std::make_unique<Immersed>(parameters.method, parameters.degree, parameters.grid,
-                                      parameters.cut, body, communicator);
+                                      parameters.cut, body, communicator, refinement);
   }
 } // namespace softcell

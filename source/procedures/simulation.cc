@@ -8,6 +8,7 @@
 #include <softcell/base/files.h>
 #include <softcell/discretization/evaluation.h>
 #include <softcell/discretization/methods.h>
+#include <softcell/operators/error_estimate.h>
 #include <softcell/output/checkpoint.h>
 #include <softcell/procedures/expected_memory.h>
 
@@ -107,6 +108,7 @@ namespace softcell
     Parameters coarser(Parameters parameters)
     {
       --parameters.procedure.coarse_grids;
+      parameters.discretization.refinement.steps = 0;
       parameters.discretization.grid.cell_size *= 2;
       parameters.discretization.mesh.size *= 2;
       for (unsigned int &n : parameters.discretization.grid.cells)
@@ -152,36 +154,18 @@ namespace softcell
         regions_(make_regions(parameters)),
         probes_(probe_points(parameters))
   {
-    const std::vector<LoadDescription> loads = parse_loads(parameters.load_entries, regions_);
+    if (reference != nullptr)
+      reference_.emplace(*reference);
     parameters.load_steps.n_steps(); // throws if it is no number
     check_coarse_grids(parameters);
     check_memory(parameters, body, MPI_COMM_WORLD);
-
-    const Timers::Scope scope(timers_, "setup");
-    discretization_ = make_discretization(parameters.discretization, parameters.geometry, body,
-                                          MPI_COMM_WORLD, remarks_);
-    size_           = discretization_->size();
-    console_.say("  " + std::to_string(size_.cells) + " cells, " + std::to_string(size_.cut_cells) +
-                 " of them cut, " + std::to_string(size_.unknowns) + " unknowns, " +
-                 std::to_string(size_.integration_points) + " integration points");
-    for (const std::string &remark : remarks_)
-      console_.say("  " + remark);
+    build();
     if (const std::string warning = locking(parameters.discretization, materials_);
         !warning.empty())
     {
       console_.warn(warning);
       remarks_.push_back(warning);
     }
-
-    loads_ = std::make_unique<Loads>(make_loads(parameters.loads, loads, regions_, *discretization_,
-                                                body.surface(), materials_, reference));
-    if (!loads_->free_motions.empty())
-      throw BadInput("Loads: " + loads_->free_motions);
-    displacement_ = discretization_->make_vector();
-    check_probes();
-    model_ =
-      std::make_unique<Model>(*discretization_, materials_, parameters.discretization.projection,
-                              *loads_, parameters.linear_solver, timers_);
     if (!parameters.procedure.start_from.empty())
       start_from(parameters.procedure.start_from);
     if (parameters.procedure.coarse_grids > 0)
@@ -193,6 +177,33 @@ namespace softcell
   }
 
   Simulation::~Simulation() = default;
+
+  void Simulation::build()
+  {
+    const Timers::Scope scope(timers_, "setup");
+    const std::vector<LoadDescription> loads = parse_loads(parameters_.load_entries, regions_);
+    std::vector<std::string> remarks;
+    discretization_ = make_discretization(parameters_.discretization, parameters_.geometry, body_,
+                                          MPI_COMM_WORLD, remarks, refinement_);
+    size_           = discretization_->size();
+    console_.say("  " + std::to_string(size_.cells) + " cells, " + std::to_string(size_.cut_cells) +
+                 " of them cut, " + std::to_string(size_.unknowns) + " unknowns, " +
+                 std::to_string(size_.integration_points) + " integration points");
+    for (const std::string &remark : remarks)
+      console_.say("  " + remark);
+    remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
+
+    loads_ = std::make_unique<Loads>(make_loads(parameters_.loads, loads, regions_,
+                                                *discretization_, body_.surface(), materials_,
+                                                reference_ ? &*reference_ : nullptr));
+    if (!loads_->free_motions.empty())
+      throw BadInput("Loads: " + loads_->free_motions);
+    displacement_ = discretization_->make_vector();
+    check_probes();
+    model_ =
+      std::make_unique<Model>(*discretization_, materials_, parameters_.discretization.projection,
+                              *loads_, parameters_.linear_solver, timers_);
+  }
 
   void Simulation::check_probes() const
   {
@@ -239,27 +250,16 @@ namespace softcell
   {
     const Timers::Scope scope(timers_, "coarse grids");
     coarser_->solve("");
-    start_           = coarser_->history_.reached;
-    const auto first = discretization_->node_positions().begin();
-    const std::vector<Direction> values =
-      evaluate(coarser_->discretization(), coarser_->displacement(),
-               {first, first + discretization_->n_owned_nodes()}, reach())
-        .displacements;
-    for (unsigned int i = 0; i < displacement_.locally_owned_size(); ++i)
-      displacement_.local_element(i) = values[i / 3][i % 3];
-    displacement_.update_ghost_values();
+    start_ = coarser_->history_.reached;
+    displacement_ =
+      transferred(coarser_->discretization(), coarser_->displacement(), *discretization_, reach());
     coarser_.reset();
   }
 
   bool Simulation::solve(const std::filesystem::path &folder)
   {
     const Timers::Scope scope(timers_, "solve");
-    const bool has_coarser = coarser_ != nullptr;
-    if (has_coarser)
-      start_from_coarser();
-    follow(folder);
-    if (has_coarser && history_.load_steps == 0)
-    {
+    const auto follow_from_rest = [&] {
       console_.say("  from the coarser grid: " + history_.reason + "; starting from rest");
       const LoadHistory failed = history_;
       displacement_            = 0;
@@ -267,6 +267,20 @@ namespace softcell
       follow(folder);
       history_.newton_iterations += failed.newton_iterations;
       history_.linear_iterations += failed.linear_iterations;
+    };
+    const bool has_coarser = coarser_ != nullptr;
+    if (has_coarser)
+      start_from_coarser();
+    follow(folder);
+    if (has_coarser && history_.load_steps == 0)
+      follow_from_rest();
+    for (unsigned int n = parameters_.discretization.refinement.steps; history_.converged && n > 0;
+         --n)
+    {
+      refine();
+      follow(folder);
+      if (history_.load_steps == 0)
+        follow_from_rest();
     }
     return history_.converged;
   }
@@ -358,6 +372,12 @@ namespace softcell
     row.set("cell_size", cell_size());
     if (size_.smallest_cut < 1)
       row.set("smallest_cut", size_.smallest_cut);
+    if (const unsigned int steps = parameters_.discretization.refinement.steps; steps > 0)
+    {
+      row.set("refinement_steps", steps);
+      row.set("estimated_error",
+              estimated_error(squared_errors(*discretization_, materials_, displacement_)));
+    }
     if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
       row.set("load_energy", energy);
     if (const double energy = model_->stabilization().energy(displacement_); energy > 0)

@@ -104,11 +104,14 @@ def bad_input(folder):
 def ranks(folder):
     """One, two and three ranks give the same row to 1e-8."""
     (folder / "bar.prm").write_text(BAR)
-    for method in ("weighted cell", "finite cell", "moment fitting", "sparse grid", "tetrahedra", "hexahedra"):
+    refinement = "weighted cell; Refinement steps = 2"
+    for method in ("weighted cell", "finite cell", "moment fitting", "sparse grid", "tetrahedra", "hexahedra",
+                   refinement):
+        entries = [f"Discretization/{entry}" for entry in f"Method = {method}".split("; ")]
+        settings = [word for entry in entries for word in ("--set", entry)]
         results = []
         for n in (1, 2, 3):
-            status, out, error = softcell("bar.prm", "--set", f"Discretization/Method = {method}", "--output",
-                                          f"{method}{n}", ranks=n, folder=folder)
+            status, out, error = softcell("bar.prm", *settings, "--output", f"{method}{n}", ranks=n, folder=folder)
             check(status == 0, f"{method} on {n} ranks: status {status}: {out[-2000:]} {error[-2000:]}")
             check("\x1b" not in out, f"{method} on {n} ranks: no live line where the output is no terminal")
             if status == 0:

@@ -69,4 +69,9 @@ namespace softcell
                        const Vector &u,
                        const std::vector<Point> &points,
                        double reach);
+
+  /// The displacement of one discretization of a body at the nodes of another; 0 at nodes beyond
+  /// reach. Has ghost values. Collective.
+  Vector
+  transferred(const Discretization &from, const Vector &u, const Discretization &to, double reach);
 } // namespace softcell

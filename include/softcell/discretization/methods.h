@@ -16,6 +16,15 @@
 
 namespace softcell
 {
+  /// How a background grid is refined where an estimate of the error asks for it.
+  struct RefinementParameters
+  {
+    unsigned int steps = 0;
+    double fraction    = 0.5; // of the squared error, which the cells hold that are halved
+
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// What the section Discretization of a parameter file says.
   struct DiscretizationParameters
   {
@@ -25,6 +34,7 @@ namespace softcell
     GridParameters grid;
     CutParameters cut;
     MeshParameters mesh;
+    RefinementParameters refinement;
 
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -39,10 +49,12 @@ namespace softcell
   /// Builds the discretization of a body. Collective.
   /// @param geometry what the body was made from.
   /// @param remarks gets a sentence on whatever a user should know.
+  /// @param refinement of a background grid; empty for a mesh.
   /// @throws BadInput
   std::unique_ptr<Discretization> make_discretization(const DiscretizationParameters &parameters,
                                                       const GeometryParameters &geometry,
                                                       const Body &body,
                                                       MPI_Comm communicator,
-                                                      std::vector<std::string> &remarks);
+                                                      std::vector<std::string> &remarks,
+                                                      const Refinement &refinement = {});
 } // namespace softcell

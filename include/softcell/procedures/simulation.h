@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace softcell
@@ -22,8 +23,8 @@ namespace softcell
   public:
     /// Builds the discretization, the loads and the equations, and says how large they are.
     /// @param body    must outlive the simulation, as the console must.
-    /// @param reference whose displacement loads `displacement reference` impose, as it is now;
-    ///                may be null if there are none.
+    /// @param reference whose displacement loads `displacement reference` impose, as it is now and
+    ///                after each refinement of the grid; may be null if there are none.
     /// @throws BadInput
     Simulation(const std::string &name,
                const Parameters &parameters,
@@ -33,9 +34,9 @@ namespace softcell
     ~Simulation();
 
     /// Follows the load to its end, from where `Start from` or the coarse grids say, which are
-    /// solved first. False if that was not reached:
-    /// then the displacement is that of the last load step that converged, and reason() says what
-    /// stopped it.
+    /// solved first, and does so again on each grid that section Discretization has refined. False
+    /// if the end was not reached: then the displacement is that of the last load step that
+    /// converged, and reason() says what stopped it.
     /// @param folder for the states that `Every` asks for.
     bool solve(const std::filesystem::path &folder);
 
@@ -96,6 +97,16 @@ namespace softcell
     void write(const std::filesystem::path &folder);
 
   private:
+    /// Makes the discretization and all that stands on it, with no displacement.
+    /// @throws BadInput
+    void build();
+
+    /// Halves the cells that err most, where the displacement is taken along.
+    void refine();
+
+    /// Estimated error of the displacement in the energy norm, relative.
+    double estimated_error(const std::vector<double> &squared_errors) const;
+
     /// @throws BadInput if a probe is farther from the body than a hundredth of its diagonal.
     void check_probes() const;
 
@@ -119,11 +130,13 @@ namespace softcell
     Parameters parameters_;
     const Body &body_;
     Console &console_;
+    std::optional<DisplacementField> reference_;
     mutable Timers timers_;
     std::vector<std::string> remarks_;
     std::vector<Material> materials_;
     std::vector<Region> regions_;
     std::vector<Point> probes_;
+    Refinement refinement_;
     std::unique_ptr<Discretization> discretization_;
     Size size_;
     std::unique_ptr<Loads> loads_;
