@@ -134,8 +134,8 @@ namespace softcell
     if (lost > 1e-3 * area)
       throw BadInput("Regions/" + region.name() + ": " + std::to_string(100 * lost / area) +
                      " % of its area is farther than a cell from every cell that holds some of the "
-                     "body; give more 'Cells' in section Discretization, or a lower 'Smallest "
-                     "volume fraction'.");
+                     "body; give more 'Cells' in section Discretization, a lower 'Smallest volume "
+                     "fraction', or fewer 'Refinement steps'.");
 
     std::map<unsigned int, SurfacePatch> patches; // by cell
     const dealii::QWitherdenVincentSimplex<2> rule(std::min(degree() + 1, 7u));

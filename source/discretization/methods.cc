@@ -38,7 +38,8 @@ namespace softcell
     prm.add_parameter(
       "Refinement steps", steps,
       "How often the problem is solved again on a background grid of degree 1 whose "
-      "cells are halved where the estimated error of the stress is largest.",
+      "cells are halved where the estimated error of the stress is largest. solution.pvd has the "
+      "states of the last grid, and checkpoint.h5 that grid too.",
       dealii::Patterns::Integer(0, 8));
     prm.add_parameter("Refined fraction", fraction,
                       "At each of the refinement steps the fewest cells are halved that hold this "

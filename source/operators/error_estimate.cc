@@ -18,17 +18,32 @@ namespace softcell
     /// A symmetric stress: its entries xx, yy, zz and yz, xz, xy.
     using Stress = std::array<Direction, 2>;
 
-    Stress stress(const Material &material, const Gradient &gradient)
+    Matrix3<double> deformation_gradient(const Patch &patch, const unsigned int q, const Vector &u)
     {
+      const Gradient H  = interpolate_gradient(patch.nodes, patch.shapes->gradient(q), u);
       Matrix3<double> F = identity<double>();
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
-          F(i, j) += gradient[i][j];
+          F(i, j) += H[i][j];
+      return F;
+    }
+
+    /// What the law takes for the change of volume; 0 where it takes none.
+    double volumetric_strain(const Material &material, const Matrix3<double> &F)
+    {
+      return material.visit([&](const auto &law) {
+        return law.is_admissible(determinant(F)) ? law.volumetric_strain(F) : 0;
+      });
+    }
+
+    Stress
+    stress(const Material &material, const Matrix3<double> &F, const double volumetric_strain)
+    {
       return material.visit([&](const auto &law) -> Stress {
         if (!law.is_admissible(determinant(F)))
           return {};
-        const Matrix3<double> S = law.second_piola_stress(F);
-        return {Direction({S(0, 0), S(1, 1), S(2, 2)}), Direction({S(1, 2), S(0, 2), S(0, 1)})};
+        const Matrix3<double> s = law.cauchy_stress(F, law.lambda * volumetric_strain);
+        return {Direction({s(0, 0), s(1, 1), s(2, 2)}), Direction({s(1, 2), s(0, 2), s(0, 1)})};
       });
     }
 
@@ -47,25 +62,41 @@ namespace softcell
     template <class Function>
     void for_each_stress(const Discretization &discretization,
                          const std::vector<Material> &materials,
+                         const bool has_projection,
                          const unsigned int label,
                          const Vector &u,
                          const Function &f)
     {
       PatchStorage storage;
+      std::vector<unsigned int> points;
+      std::vector<Matrix3<double>> F;
+      std::vector<double> strains;
       for (unsigned int i = 0; i < discretization.n_patches(); ++i)
       {
         const Patch patch = discretization.patch(i, storage);
+        double volume = 0, change = 0;
+        points.clear();
+        F.clear();
+        strains.clear();
         for (unsigned int q = 0; q < patch.n_points(); ++q)
           if (patch.label(q) == label && patch.weights[q] != 0)
-            f(i, patch, q,
-              stress(materials[label],
-                     interpolate_gradient(patch.nodes, patch.shapes->gradient(q), u)));
+          {
+            points.push_back(q);
+            F.push_back(deformation_gradient(patch, q, u));
+            strains.push_back(volumetric_strain(materials[label], F.back()));
+            volume += patch.weights[q];
+            change += patch.weights[q] * strains.back();
+          }
+        for (unsigned int k = 0; k < points.size(); ++k)
+          f(i, patch, points[k],
+            stress(materials[label], F[k], has_projection ? change / volume : strains[k]));
       }
     }
   } // namespace
 
   std::vector<double> squared_errors(const Discretization &discretization,
                                      const std::vector<Material> &materials,
+                                     const bool has_projection,
                                      const Vector &u)
   {
     std::vector<double> result(discretization.n_patches(), 0.);
@@ -74,7 +105,7 @@ namespace softcell
       // by node: sums of the stress and, three times, of the volume
       std::array<Vector, 2> averages = {discretization.make_vector(), discretization.make_vector()};
       Vector volumes                 = discretization.make_vector();
-      for_each_stress(discretization, materials, label, u,
+      for_each_stress(discretization, materials, has_projection, label, u,
                       [&](unsigned int, const Patch &patch, const unsigned int q, const Stress &S) {
                         for (unsigned int i = 0; i < patch.n_nodes(); ++i)
                           for (unsigned int c = 0; c < 3; ++c)
@@ -97,7 +128,7 @@ namespace softcell
       }
 
       for_each_stress(
-        discretization, materials, label, u,
+        discretization, materials, has_projection, label, u,
         [&](const unsigned int i, const Patch &patch, const unsigned int q, const Stress &S) {
           const double *const N = patch.shapes->value(q);
           result[i] += patch.weights[q] *

@@ -19,17 +19,18 @@ namespace softcell
 {
   namespace
   {
-    /// Positions and displacements of all nodes, three numbers each.
+    /// Positions and displacements of all nodes, three numbers each; rounds and points of
+    /// refinement, four numbers each.
     struct Content
     {
-      std::vector<double> positions, displacement;
+      std::vector<double> positions, displacement, refinement;
       double load_factor = 0;
       bool is_good       = false; // it could be read
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &positions &displacement &load_factor &is_good;
+        archive &positions &displacement &refinement &load_factor &is_good;
       }
     };
 
@@ -70,7 +71,10 @@ namespace softcell
         const hsize_t n  = content.positions.size() / 3;
         is_good = file >= 0 && write_data(file, "positions", {n, 3}, content.positions.data()) &&
                   write_data(file, "displacement", {n, 3}, content.displacement.data()) &&
-                  write_data(file, "load_factor", {1}, &content.load_factor);
+                  write_data(file, "load_factor", {1}, &content.load_factor) &&
+                  (content.refinement.empty() ||
+                   write_data(file, "refinement", {content.refinement.size() / 4, 4},
+                              content.refinement.data()));
         is_good = H5Fclose(file) >= 0 && is_good;
       }
       H5E_END_TRY
@@ -90,7 +94,9 @@ namespace softcell
         content.is_good  = file >= 0 && read_data(file, "positions", content.positions) &&
                           read_data(file, "displacement", content.displacement) &&
                           read_data(file, "load_factor", load_factor) && load_factor.size() == 1 &&
-                          content.positions.size() == content.displacement.size();
+                          content.positions.size() == content.displacement.size() &&
+                          (H5Lexists(file, "refinement", H5P_DEFAULT) <= 0 ||
+                           read_data(file, "refinement", content.refinement));
         H5Fclose(file);
       }
       H5E_END_TRY
@@ -101,8 +107,27 @@ namespace softcell
                            [](const double value) { return std::isfinite(value); });
       };
       content.is_good = content.is_good && is_finite(content.positions) &&
-                        is_finite(content.displacement) && is_finite(load_factor);
+                        is_finite(content.displacement) && is_finite(load_factor) &&
+                        is_finite(content.refinement);
       return content;
+    }
+
+    Content read_on_root(const std::string &file, MPI_Comm communicator)
+    {
+      namespace mpi = dealii::Utilities::MPI;
+      Content content;
+      if (mpi::this_mpi_process(communicator) == 0)
+        content = read_content(file);
+      return mpi::broadcast(communicator, content);
+    }
+
+    std::vector<double> in_rows(const Refinement &refinement)
+    {
+      std::vector<double> rows;
+      for (unsigned int round = 0; round < refinement.size(); ++round)
+        for (const Point &X : refinement[round])
+          rows.insert(rows.end(), {double(round), X[0], X[1], X[2]});
+      return rows;
     }
 
     /// Nodes by their position in steps of a length far below any cell and far above round-off.
@@ -157,7 +182,8 @@ namespace softcell
   void write_checkpoint(const std::string &file,
                         const Discretization &discretization,
                         const Vector &u,
-                        const double load_factor)
+                        const double load_factor,
+                        const Refinement &refinement)
   {
     namespace mpi            = dealii::Utilities::MPI;
     const std::size_t n_mine = 3 * discretization.n_owned_nodes();
@@ -173,22 +199,31 @@ namespace softcell
 
     bool is_good = true;
     if (mpi::this_mpi_process(communicator) == 0)
-      is_good =
-        write_content(file, {joined(all_positions), joined(all_displacement), load_factor, true});
+      is_good = write_content(file, {joined(all_positions), joined(all_displacement),
+                                     in_rows(refinement), load_factor, true});
     if (mpi::min(is_good ? 1 : 0, communicator) == 0)
       throw BadInput(
         "The checkpoint '" + file +
         "' cannot be written; give a folder with room and permission by --output DIR.");
   }
 
+  Refinement read_refinement(const std::string &file, MPI_Comm communicator)
+  {
+    Refinement refinement;
+    const std::vector<double> rows = read_on_root(file, communicator).refinement;
+    for (std::size_t i = 0; i + 3 < rows.size(); i += 4)
+    {
+      refinement.resize(std::max<std::size_t>(refinement.size(), std::size_t(rows[i]) + 1));
+      refinement[std::size_t(rows[i])].emplace_back(rows[i + 1], rows[i + 2], rows[i + 3]);
+    }
+    return refinement;
+  }
+
   double read_checkpoint(const std::string &file, const Discretization &discretization, Vector &u)
   {
     namespace mpi               = dealii::Utilities::MPI;
     const MPI_Comm communicator = discretization.communicator();
-    Content content;
-    if (mpi::this_mpi_process(communicator) == 0)
-      content = read_content(file);
-    content = mpi::broadcast(communicator, content);
+    const Content content       = read_on_root(file, communicator);
     if (!content.is_good)
       throw BadInput("The checkpoint '" + file +
                      "' cannot be read; give a whole one that softcell "

@@ -8,7 +8,6 @@
 #include <softcell/base/files.h>
 #include <softcell/discretization/evaluation.h>
 #include <softcell/discretization/methods.h>
-#include <softcell/operators/error_estimate.h>
 #include <softcell/output/checkpoint.h>
 #include <softcell/procedures/expected_memory.h>
 
@@ -159,6 +158,8 @@ namespace softcell
     parameters.load_steps.n_steps(); // throws if it is no number
     check_coarse_grids(parameters);
     check_memory(parameters, body, MPI_COMM_WORLD);
+    if (!parameters.procedure.start_from.empty())
+      take_refinement(parameters.procedure.start_from);
     build();
     if (const std::string warning = locking(parameters.discretization, materials_);
         !warning.empty())
@@ -274,8 +275,7 @@ namespace softcell
     follow(folder);
     if (has_coarser && history_.load_steps == 0)
       follow_from_rest();
-    for (unsigned int n = parameters_.discretization.refinement.steps; history_.converged && n > 0;
-         --n)
+    while (history_.converged && refinement_.size() < parameters_.discretization.refinement.steps)
     {
       refine();
       follow(folder);
@@ -375,8 +375,7 @@ namespace softcell
     if (const unsigned int steps = parameters_.discretization.refinement.steps; steps > 0)
     {
       row.set("refinement_steps", steps);
-      row.set("estimated_error",
-              estimated_error(squared_errors(*discretization_, materials_, displacement_)));
+      row.set("estimated_error", estimated_error(cell_errors()));
     }
     if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
       row.set("load_energy", energy);
@@ -447,7 +446,7 @@ namespace softcell
     }
     if (parameters_.output.checkpoint)
       write_checkpoint((folder / "checkpoint.h5").string(), *discretization_, displacement_,
-                       load_factor);
+                       load_factor, refinement_);
     written_ = load_factor;
   }
 } // namespace softcell

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The main loop's next grid: the cells that err most are halved.
 
+#include <softcell/base/exceptions.h>
 #include <softcell/discretization/evaluation.h>
 #include <softcell/operators/error_estimate.h>
+#include <softcell/output/checkpoint.h>
 #include <softcell/procedures/simulation.h>
 
 #include <cmath>
@@ -12,10 +14,21 @@
 
 namespace softcell
 {
+  void Simulation::take_refinement(const std::string &checkpoint)
+  {
+    refinement_              = read_refinement(checkpoint, MPI_COMM_WORLD);
+    const unsigned int steps = parameters_.discretization.refinement.steps;
+    if (refinement_.size() > steps)
+      throw BadInput("The grid of the checkpoint '" + checkpoint + "' was refined " +
+                     std::to_string(refinement_.size()) +
+                     " times, but Discretization/Refinement steps = " + std::to_string(steps) +
+                     "; give as many at least.");
+  }
+
   void Simulation::refine()
   {
     const double fraction            = parameters_.discretization.refinement.fraction;
-    const std::vector<double> errors = squared_errors(*discretization_, materials_, displacement_);
+    const std::vector<double> errors = cell_errors();
     std::vector<Point> inside, points;
     for (const unsigned int i : largest_errors(errors, fraction, MPI_COMM_WORLD))
     {
@@ -42,9 +55,15 @@ namespace softcell
     start_        = 1;
   }
 
-  double Simulation::estimated_error(const std::vector<double> &squared_errors) const
+  std::vector<double> Simulation::cell_errors() const
   {
-    const double sum = std::accumulate(squared_errors.begin(), squared_errors.end(), 0.);
+    return squared_errors(*discretization_, materials_, parameters_.discretization.projection,
+                          displacement_);
+  }
+
+  double Simulation::estimated_error(const std::vector<double> &cell_errors) const
+  {
+    const double sum = std::accumulate(cell_errors.begin(), cell_errors.end(), 0.);
     return std::sqrt(dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD) /
                      (2 * model_->elasticity().energy(displacement_)));
   }

@@ -342,21 +342,23 @@ namespace softcell
         reference_index_                        = one.reference;
         return;
       }
-      if (reference_index_ != one.reference)
-        reference_ = build(run, "");
+      std::unique_ptr<Simulation> reference = std::move(reference_); // until it is solved
+      if (!reference)
+        reference = build(run, "");
       console_.say("Reference: " + parameters_.study.reference);
-      reference_index_     = one.reference;
-      const bool is_solved = reference_->solve(folder);
-      run.row              = reference_->row();
-      run.linear_residuals = reference_->linear_residuals();
+      const bool is_solved = reference->solve(folder);
+      run.row              = reference->row();
+      run.linear_residuals = reference->linear_residuals();
       run.row.set("fingerprint", run.fingerprint);
-      reference_->write(folder);
-      if (!is_solved)
+      reference->write(folder);
+      reference_index_ = one.reference;
+      if (is_solved)
+        reference_ = std::move(reference);
+      else
       {
-        run.row.set("failure", reference_->reason());
-        record_.remarks.push_back("The reference did not converge: " + reference_->reason() + ".");
+        run.row.set("failure", reference->reason());
+        record_.remarks.push_back("The reference did not converge: " + reference->reason() + ".");
         console_.warn(record_.remarks.back() + " Its cases get no errors.");
-        reference_.reset();
       }
       time_left_.add(run.work, run.row.number("total_s"));
       keep(run, folder, record_);

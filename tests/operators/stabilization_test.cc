@@ -164,19 +164,20 @@ namespace softcell
     EXPECT_NEAR(stabilization.energy(u), M / 2 * gamma * 2. / 3 * h * area, 1e-14);
   }
 
-  /// With hanging nodes too, of cells beside those that are cut.
+  /// With hanging nodes too, of cells beside those that are cut and of cut ones.
   TEST(Stabilization, GhostPenaltyLeavesPolynomialsAlone)
   {
-    const auto body                       = make_sphere(0.5);
+    const auto body           = make_sphere(0.5);
+    const Refinement at_cut[] = {{}, {}, {{Point(0.05, 0.05, 0.02), Point(0.3, 0.3, 0.3)}}};
     const std::vector<Material> materials = {Material("Neo-Hookean", E, nu)};
     for (unsigned int degree = 1; degree <= 2; ++degree)
-      for (unsigned int refinement = 0; refinement <= 1; ++refinement)
+      for (unsigned int kind = 0; kind < 3; ++kind)
       {
         GridParameters grid;
-        grid.cells              = {8 - 4 * refinement};
-        grid.surface_refinement = refinement;
-        const Immersed immersed("weighted cell", degree, grid, ghost_penalty, *body,
-                                MPI_COMM_WORLD);
+        grid.cells              = {kind == 0 ? 8u : 4u};
+        grid.surface_refinement = kind == 1 ? 1 : 0;
+        const Immersed immersed("weighted cell", degree, grid, ghost_penalty, *body, MPI_COMM_WORLD,
+                                at_cut[kind]);
         const Stabilization stabilization(immersed, materials);
         const auto energy = [&](const unsigned int power) {
           Vector u = immersed.make_vector();

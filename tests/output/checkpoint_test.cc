@@ -22,9 +22,11 @@ TEST(Checkpoint, ReadsBack)
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int d = 0; d < 3; ++d)
       u.local_element(3 * i + d) = cells.node_positions()[i][d] * (1. / 3) + 0.1 * d;
-  write_checkpoint("checkpoint_test.h5", cells, u, 0.75);
+  const Refinement refinement = {{Point(0.1, 0.2, 0.3)}, {Point(1, 2, 3), Point(4, 5, 6)}};
+  write_checkpoint("checkpoint_test.h5", cells, u, 0.75, refinement);
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(read_checkpoint("checkpoint_test.h5", cells, v), 0.75);
+  EXPECT_EQ(read_refinement("checkpoint_test.h5", MPI_COMM_WORLD), refinement);
   for (unsigned int i = 0; i < 12; ++i)
     EXPECT_EQ(v.local_element(i), u.local_element(i));
   MPI_Barrier(MPI_COMM_WORLD);

@@ -71,6 +71,29 @@ namespace softcell
     EXPECT_LT(adaptive.number("estimated_error"), solved_on(4, 1).number("estimated_error"));
   }
 
+  /// With what else is known of grids: coarser ones first, cells left out, faces that are
+  /// penalized, volumes that are projected.
+  TEST(Adaptive, goes_together_with_the_rest)
+  {
+    const auto bent_ball = [](const unsigned int coarse_grids, const unsigned int steps) {
+      Parameters p                                   = body_of("sphere", {"moment fitting", 1}, 4);
+      p.discretization.cut                           = {2, 0, 0, 0.01};
+      p.discretization.grid.smallest_volume_fraction = 1e-3;
+      p.discretization.projection                    = true;
+      p.discretization.refinement                    = {steps, 0.3};
+      p.material.poisson_ratio                       = 0.499;
+      p.procedure.coarse_grids                       = coarse_grids;
+      p.regions                                      = {{"base", "z < 0.1"}, {"top", "z > 0.9"}};
+      p.load_entries = {{"base", "clamp"}, {"top", "traction 20, 0, 0"}};
+      return solve(p);
+    };
+    const Solved refined = bent_ball(0, 2), from_coarse = bent_ball(1, 2);
+    Vector difference = from_coarse.simulation->displacement();
+    difference -= refined.simulation->displacement();
+    EXPECT_LT(difference.l2_norm(), 1e-8 * refined.simulation->displacement().l2_norm());
+    EXPECT_GT(refined.row.number("dofs"), bent_ball(0, 0).row.number("dofs"));
+  }
+
   TEST(Adaptive, is_refused_where_it_is_not_available)
   {
     for (const Method &method : {Method{"hexahedra", 1}, Method{"weighted cell", 2}})

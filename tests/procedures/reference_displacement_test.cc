@@ -18,15 +18,16 @@ namespace softcell
       return p;
     }
 
-    /// A linear displacement is in every grid, so that it comes back exactly.
+    /// A linear displacement is in every grid, a refined one too, so that it comes back exactly.
     TEST(ReferenceDisplacementTest, linear_one_comes_back_from_another_grid)
     {
       const Solved reference =
         solve(held_box("hexahedra", 3, "displacement 0.1*z, -0.05*x, 0.02*y + 0.1*z"));
       const DisplacementField field = reference.simulation->field();
-      for (const char *const method : {"hexahedra", "tetrahedra"})
+      for (const char *const method : {"hexahedra", "tetrahedra", "finite cell"})
       {
-        const Parameters p = held_box(method, 2, "displacement reference");
+        Parameters p                      = held_box(method, 2, "displacement reference");
+        p.discretization.refinement.steps = std::string(method) == "finite cell" ? 1 : 0;
         std::ostringstream log;
         Console console(log, false, 1e9);
         Simulation simulation("test", p, *reference.body, console, &field);

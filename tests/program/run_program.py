@@ -153,6 +153,28 @@ end
         check(0 < int(on.pop("load_steps")) < int(whole.pop("load_steps")), "it takes the steps that are left")
         same_row(whole, on, 1e-8, f"stop and go on {ranks_now} ranks")
 
+    # of a refined grid: it goes on as it was, is refined further, and a reference is found again
+    def refined(steps, to, start, *more):
+        entries = (f"Discretization/Refinement steps = {steps}", f"Solver/Start from = {start}", *more)
+        return softcell("bar.prm", *[word for entry in entries for word in ("--set", entry)], "--output", to, folder=folder)
+
+    for steps, to, start in ((1, "once", ""), (1, "again", "once/checkpoint.h5"), (2, "twice", ""),
+                             (2, "once_more", "once/checkpoint.h5")):
+        status, out, error = refined(steps, to, start)
+        check(status == 0, f"{to}: status {status} {out} {error}")
+    for one, other in (("once", "again"), ("twice", "once_more")):
+        pair = [rows(folder / to / "results.csv")[0] for to in (one, other)]
+        for row in pair:  # which a run that has nothing left to solve does not know
+            row.pop("condition", None)
+        same_row(*pair, 1e-8, other)
+    status, _, error = refined(0, "less", "once/checkpoint.h5")
+    check(status == 1 and "refined 1 times" in error and "Refinement steps = 0" in error, f"too few steps: {error}")
+    for cells, is_there in (("3", False), ("3, 4", True)):
+        status, out, error = refined(0, "study", "", "Study/Reference = Discretization/Refinement steps = 1",
+                                     f"Study/Cells = {cells}")
+        check(status == 0 and ("Solved before: reference" in out) == is_there,
+              f"adaptive reference, cells {cells}: {out} {error}")
+
     short = (folder / "whole" / "checkpoint.h5").read_bytes()
     (folder / "short.h5").write_bytes(short[:len(short) // 2])
     for file, setting in (("short.h5", "Output/Every = 0"), ("whole/checkpoint.h5", "Discretization/Cells = 5")):

@@ -11,7 +11,7 @@ namespace softcell
 {
   /// The estimate of Zienkiewicz and Zhu of each cell's error in the energy norm, at degree 1.
   ///
-  /// S is the second Piola-Kirchhoff stress of u, and S* = sum_i N_i S_i with S_i = int N_i S / int
+  /// S is the Cauchy stress of u, and S* = sum_i N_i S_i with S_i = int N_i S / int
   /// N_i what its averages at the nodes make of it. Where the solution is smooth, S* is nearer to
   /// the truth than S, so that eta^2 = int (S* - S) : C^-1 : (S* - S) over a cell stands for its
   /// squared error; C is the elasticity of the material at rest. Averages are taken for each
@@ -23,10 +23,13 @@ namespace softcell
   ///
   /// Collective.
   /// @param materials one per label.
+  /// @param has_projection of the change of volume (VolumetricProjection); without it the pressure
+  ///                  of a nearly incompressible material would be that of no point.
   /// @param u         with ghost values.
   /// @return (n_patches) eta^2, twice the energy of the error if small. Units: J
   std::vector<double> squared_errors(const Discretization &discretization,
                                      const std::vector<Material> &materials,
+                                     bool has_projection,
                                      const Vector &u);
 
   /// The fewest patches of all ranks that hold a part of the sum of the squared errors; of those

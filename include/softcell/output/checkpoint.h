@@ -2,6 +2,7 @@
 // The displacement of a run as an HDF5 file, to go on from or to read elsewhere.
 #pragma once
 
+#include <softcell/discretization/background_grid.h>
 #include <softcell/discretization/discretization.h>
 
 #include <string>
@@ -9,12 +10,18 @@
 namespace softcell
 {
   /// Writes the data sets `positions` (n, 3) and `displacement` (n, 3) of all nodes, in m, and
-  /// `load_factor`. Rank 0 gathers and writes; a file that stood there stays until all is written.
+  /// `load_factor`; and `refinement` (n, 4), where a background grid was refined: the round and a
+  /// point in m. Rank 0 gathers and writes; a file that stood there stays until all is written.
   /// Collective. @throws BadInput if it cannot be written.
   void write_checkpoint(const std::string &file,
                         const Discretization &discretization,
                         const Vector &u,
-                        double load_factor);
+                        double load_factor,
+                        const Refinement &refinement = {});
+
+  /// How the grid of a checkpoint was refined; not at all if the file cannot be read, of which
+  /// read_checkpoint() tells. Collective.
+  Refinement read_refinement(const std::string &file, MPI_Comm communicator);
 
   /// Fills u, ghosts too, from a checkpoint that any number of ranks wrote of the same
   /// discretization, or of one that has all of its nodes; these are told by their positions.

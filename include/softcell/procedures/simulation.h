@@ -104,11 +104,17 @@ namespace softcell
     /// Halves the cells that err most, where the displacement is taken along.
     void refine();
 
-    /// Estimated error of the displacement in the energy norm, relative.
-    double estimated_error(const std::vector<double> &squared_errors) const;
+    /// Of each cell the estimate of the displacement's squared error. Units: J
+    std::vector<double> cell_errors() const;
+
+    /// What these make of the error in the energy norm, relative.
+    double estimated_error(const std::vector<double> &cell_errors) const;
 
     /// @throws BadInput if a probe is farther from the body than a hundredth of its diagonal.
     void check_probes() const;
+
+    /// Takes the grid's refinement from a checkpoint, before the grid is built. @throws BadInput
+    void take_refinement(const std::string &checkpoint);
 
     /// Takes displacement and load factor from a checkpoint. @throws BadInput
     void start_from(const std::string &checkpoint);
