@@ -152,12 +152,17 @@ def error_plots(study):
     """Errors against size, unknowns and time, for each norm and of the stress."""
     rows, note = study.finest_levels()
     size = Axis("cell_size", f"cell size h, {study.unit}", study.factor)
+    is_adaptive = any(row.get("refinement_steps") for row in rows)  # then cells have many sizes
+    xs = (DOFS, SECONDS) if is_adaptive else (size, DOFS, SECONDS)
+    where = " against " + ("" if is_adaptive else "cell size, ") + "unknowns and time."
+    orders = (" In brackets the observed order between the two finest cell sizes; triangles show the order of theory."
+              if size in xs else "")
     for y, theory, rate in ((L2, 1, "observed_rate"), (H1, 0, "observed_rate_h1"), (STRESS, 0, "observed_rate_stress")):
         for title, part in study.panels([row for row in rows if y.value(row) is not None], study.tells):
-            figure, panels = new_figure(3, title)
+            figure, panels = new_figure(len(xs), title)
             counts = [draw_curves(study, axes, part, x, y, rate if x is size else None)
-                      for axes, x in zip(panels, (size, DOFS, SECONDS))]
-            if counts[1] < 2:
+                      for axes, x in zip(panels, xs)]
+            if counts[xs.index(DOFS)] < 2:
                 plt.close(figure)
                 continue
             for axes in panels[1:]:  # what the first one says
@@ -166,11 +171,9 @@ def error_plots(study):
             degrees = sorted({int(row["degree"]) for row in part if row.get("degree")}, reverse=True)
             low, high = panels[0].get_ylim()
             panels[0].set_ylim(low * (low / high)**0.12)  # room for the triangles
-            for place, degree in enumerate(degrees[:2] if counts[0] > 1 else []):
+            for place, degree in enumerate(degrees[:2] if size in xs and counts[0] > 1 else []):
                 slope_triangle(panels[0], degree + theory, place)
-            yield finished(figure, panels, f"R{y.label[1:-3]} against cell size, unknowns and time. In brackets the "
-                           "observed order between the two finest cell sizes; triangles show the order of theory."
-                           + note)
+            yield finished(figure, panels, f"R{y.label[1:-3]}{where}{orders}{note}")
 
 
 def level_plots(study):

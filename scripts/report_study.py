@@ -13,6 +13,7 @@ COLOURS = {"finite cell": "#0072B2", "weighted cell": "#D55E00", "tetrahedra": "
 MORE_COLOURS = ("#E69F00", "#56B4E9", "#000000", "#8C6D31", "#5E3C99", "#D9B300", "#0072B2", "#D55E00", "#009E73",
                 "#CC79A7")
 MARKS, LINES = "os^Dv*Xp<>Ph", ("-", "--", "-.", ":")
+SIZES = {f"Discretization/{entry}" for entry in ("Cells", "Cell size", "Mesh size", "Refinement steps")}
 
 
 def number(row, column):
@@ -54,6 +55,12 @@ def length_unit(largest):
                 or unit[0] == "µm")
 
 
+def is_of_sizes(sweep):
+    """Does an entry of section Sweeps set nothing but how large cells are?"""
+    settings = [setting for choice in sweep.split("|") for setting in choice.partition(":")[2].split(";")]
+    return {setting.partition("=")[0].strip() for setting in settings} - {""} <= SIZES
+
+
 class Study:
     """The rows of results.csv, what run.json says of them, and how their curves are told apart.
 
@@ -71,7 +78,12 @@ class Study:
         except (OSError, ValueError):
             self.run = {}
         prefix = "Sweeps/"
-        self.sweeps = [name[len(prefix):] for name in self.run.get("parameters", {}) if name.startswith(prefix)]
+        sweeps = {name[len(prefix):]: text for name, text in self.run.get("parameters", {}).items()
+                  if name.startswith(prefix)}
+        self.sweeps = list(sweeps)
+        for name in filter(lambda one: is_of_sizes(sweeps[one]), sweeps):
+            for row in self.rows:  # `uniform 8` and `uniform 16` are points of one curve
+                row[name] = row[name].rstrip("0123456789 ") or row[name]
         self.tells = [c for c in ("method", *self.sweeps, "degree", "cut_levels")
                       if len(values(self.rows, c, True)) > 1]
         self.unit, self.factor = length_unit(max((number(row, "cell_size") or 0 for row in self.rows), default=1))

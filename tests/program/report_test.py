@@ -63,6 +63,23 @@ def write_study(folder):
         "linear_residuals": residuals}))
 
 
+def write_adaptive(folder):
+    """Two sizes of a uniform grid, and as many refinements of one."""
+    table = []
+    for grid, dofs, steps in (("uniform 8", 100, ""), ("uniform 16", 800, ""), ("adaptive 1", 150, 1), ("adaptive 2", 200, 2)):
+        table.append({"case": grid.replace(" ", "_"), "method": "finite cell", "degree": 1, "dofs": dofs, "total_s": dofs,
+                      "converged": "true", "cell_size": 1, "refinement_steps": steps, "grid": grid,
+                      "relative_l2_error": 1 / dofs})
+    folder.mkdir()
+    with open(folder / "results.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, table[0])
+        writer.writeheader()
+        writer.writerows(table)
+    sweep = "uniform 8: | uniform 16: Discretization/Cells = 16 | adaptive 1: Discretization/Refinement steps = 1 | " \
+            "adaptive 2: Discretization/Refinement steps = 2"
+    (folder / "run.json").write_text(json.dumps({"parameters": {"Sweeps/grid": sweep}}))
+
+
 def check_page(file, title, labels):
     """The page is well-formed and needs nothing else; each plot has one legend and the labels are there."""
     page = file.read_text()
@@ -96,6 +113,12 @@ def report(folder):
     check(len(plots) >= 8 and "<p>What it is about.</p>" in page, f"{len(plots)} plots")
     check("<h2>Time to an error</h2>" in page, "what each method takes to an error")
     check("of which 2 did not converge" in page and "<tr class=failed>" in page, "what failed is marked")
+    write_adaptive(folder / "adaptive")
+    run = subprocess.run([*command, "adaptive"], cwd=folder, capture_output=True, text=True, check=False)
+    check(run.returncode == 0, f"report.py: {run.stderr}")
+    _, curves = check_page(folder / "adaptive" / "report.html", "adaptive", {"uniform", "adaptive", "unknowns"})
+    check(not any("uniform 8" in plot or "cell size" in plot for plot in curves), "sizes are points of a curve")
+
     check("no step &lt;gains&gt; anything" in page and "stiff &amp; hard" in page, "texts are escaped")
 
     (folder / "study.prm").write_text("# A bar.\n" + BAR + """
