@@ -77,7 +77,8 @@ namespace softcell
     {
       const double wanted    = factor * constants[patch.cell];
       const double stiffness = std::min(wanted, limit / patch.cell_size);
-      factors_.push_back({stiffness, std::sqrt(stiffness / wanted)});
+      const double flux      = std::sqrt(stiffness / wanted);
+      factors_.push_back({stiffness, flux, 1 / (flux * constants[patch.cell])});
     }
   }
 
@@ -172,25 +173,27 @@ namespace softcell
   {
     const double step  = 1e-6; // no law offers third derivatives of its energy
     const Direction &N = patches_[p].normals[q];
+    const bool is_near = at_q.misfit.norm() <= factors_[p].largest_misfit;
     PointTangent M     = PointTangent::Zero();
     materials_[patches_[p].labels[q]].visit([&](const auto &law) {
       const auto linearisation = law.linearisation(at_q.F);
       for (unsigned int b = 0; b < 3; ++b)
         for (unsigned int B = 0; B < 3; ++B)
         {
+          const unsigned int column = 4 * b + 1 + B;
           Matrix3<double> dF{};
-          dF(b, B)                         = 1;
-          const unsigned int column        = 4 * b + 1 + B;
-          const Matrix3<double> dP         = linearisation(dF);
+          dF(b, B)                 = 1;
+          const Matrix3<double> dP = linearisation(dF);
+          for (unsigned int a = 0; a < 3; ++a)
+            if (!displacement_.is_free(a))
+              M(4 * a, column) = M(column, 4 * a) = -factors_[p].flux * dot(dP, a, N.begin_raw());
+          if (!is_near)
+            continue;
           const Matrix3<double> difference = law.linearisation(at_q.F + step * dF)(at_q.misfit_N) -
                                              law.linearisation(at_q.F - step * dF)(at_q.misfit_N);
           for (unsigned int a = 0; a < 3; ++a)
-          {
-            if (!displacement_.is_free(a))
-              M(4 * a, column) = M(column, 4 * a) = -factors_[p].flux * dot(dP, a, N.begin_raw());
             for (unsigned int A = 0; A < 3; ++A)
               M(4 * a + 1 + A, column) = -difference(a, A) / (2 * step);
-          }
         }
     });
     for (unsigned int a = 0; a < 3; ++a)

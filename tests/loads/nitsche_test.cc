@@ -79,11 +79,16 @@ namespace softcell
       const double filled_;
     };
 
-    /// Smallest eigenvalue of body and support at rest, scaled to ones on the diagonal; linear law.
-    double smallest_eigenvalue(const BoxOfCells &body, const double factor)
+    /// Smallest eigenvalue of body and support at rest, scaled to ones on the diagonal.
+    /// @param displacement that is imposed.
+    double smallest_eigenvalue(const BoxOfCells &body,
+                               const double factor,
+                               const std::string &model        = "linear",
+                               const std::string &displacement = "0, 0, 0")
     {
-      const std::vector<Material> materials{Material("linear", 5000, 0.45)};
-      const auto support   = nitsche(body, materials, top, "0, 0, 0", factor);
+      const std::vector<Material> materials{Material(model, 5000, 0.45)};
+      const Material at_rest("linear", 5000, 0.45); // what all laws are there
+      const auto support   = nitsche(body, materials, top, displacement, factor);
       const unsigned int n = body.partitioner()->size();
       const Vector nowhere = body.make_vector();
       const BlockMatrix K  = tangent_of(body, *support, nowhere, 1);
@@ -93,7 +98,7 @@ namespace softcell
         Vector u = body.make_vector(), column = body.make_vector();
         u.local_element(j) = 1;
         K.vmult(column, u);
-        add_internal_force(body, materials[0], u, column);
+        add_internal_force(body, at_rest, u, column);
         for (unsigned int i = 0; i < n; ++i)
           sum(i, j) = column.local_element(i);
       }
@@ -163,6 +168,18 @@ namespace softcell
       for (const double factor : {1.5, 10.})
         EXPECT_GT(smallest_eigenvalue(Sliver({2, 2, 2}, filled), factor), 0.01 * filled)
           << "filled to " << filled << ", factor " << factor;
+  }
+
+  // As when Newton's method starts: third derivatives of the energy, times a misfit far above the
+  // height of the slivers, would outweigh their stiffness.
+  TEST(Nitsche, IsStableOnSliversFarFromWhereTheyAreHeld)
+  {
+    for (const std::string model : {"Neo-Hookean", "Saint-Venant-Kirchhoff"})
+      for (const double filled : {1e-1, 1e-2, 1e-4, 1e-6, 1e-8})
+        for (const std::string displacement : {"0.1, 0.1, 0.1", "-0.1, -0.1, -0.1"})
+          EXPECT_GT(smallest_eigenvalue(Sliver({2, 2, 2}, filled), 10, model, displacement),
+                    0.01 * filled)
+            << model << ", filled to " << filled << ", held at " << displacement;
   }
 
   // Gradients of degree p - 1 survive the projection, in cells that are cut too. On the face z = 1

@@ -11,7 +11,10 @@ namespace softcell
 {
   /// Nitsche's method for finite strain, from the potential
   ///   Pi = -int theta P(F) N . (u - g) dA + 1/2 int gamma |u - g|^2 dA.
-  /// Residual and tangent are its exact derivatives.
+  /// The residual is its exact derivative, and the tangent that of the residual but for one part:
+  /// theta d2P/dF2 N . (u - g) is left out where |u - g| > 1 / (theta C), C as below. There, as at
+  /// the start of a load step in cells of which the body fills little, it outweighs the stiffness
+  /// of the cell, and Newton's method would fail.
   ///
   /// The volume of a sliver does not control the gradients of its shapes on its surface S. So F is
   /// made of their projection, by the quadrature of the cell K that holds S, onto polynomials of
@@ -58,8 +61,9 @@ namespace softcell
     /// What a patch's terms are multiplied by.
     struct Factors
     {
-      double stiffness; // gamma / (lambda + 2 mu). Units: 1/m
-      double flux;      // theta
+      double stiffness;      // gamma / (lambda + 2 mu). Units: 1/m
+      double flux;           // theta
+      double largest_misfit; // 1 / (theta C), see below. Units: m
     };
     /// The integrand's parts at a point of the surface.
     struct Terms
