@@ -300,6 +300,16 @@ def organ(folder):
                                    folder / "readme", folder=ROOT)
     check(status == 0, f"README's example: status {status}: {text[-2000:]} {error[-2000:]}")
 
+    # Of a linear body the work of its weight rises to that of the solution: where it is larger, the grid is better.
+    grids = "uniform: Discretization/Cells = 16 | adaptive: Discretization/Refinement steps = 3"
+    status, text, error = softcell("prm/studies/liver_adaptive.prm", "--set", "Study/Reference = ", "--set",
+                                   f"Sweeps/grid = {grids}", "--output", str(folder / "adaptive"), folder=ROOT)
+    check(status == 0, f"adaptive: status {status}: {text[-2000:]} {error[-2000:]}")
+    table = rows(folder / "adaptive" / "results.csv") if status == 0 else []
+    for uniform, adaptive in [table] if table else ():
+        check(float(adaptive["load_energy"]) < float(uniform["load_energy"])
+              and 2 * int(adaptive["dofs"]) < int(uniform["dofs"]), f"the adaptive grid is better: {table}")
+
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
