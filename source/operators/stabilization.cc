@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace softcell
 {
   Stabilization::Stabilization(const Discretization &discretization,
@@ -53,7 +55,8 @@ namespace softcell
 
   double Stabilization::modulus(const GhostFace &face) const
   {
-    return laws_[face.label].lambda + 2 * laws_[face.label].mu;
+    const auto &law = laws_[face.label];
+    return std::min(law.lambda, 2 * law.mu) + 2 * law.mu;
   }
 
   std::vector<Direction> Stabilization::forces(const GhostFace &face, const Vector &u) const

@@ -17,9 +17,10 @@ namespace softcell
   /// The material has the body's Lame parameters times alpha and is geometrically linear, so that
   /// its tangent is constant and it may be turned inside out. Source: Schillinger et al., Small and
   /// large deformation analysis with the p- and B-spline versions of the Finite Cell Method,
-  /// Comput. Mech. 50 (2012). The penalty is in proportion to lambda + 2 mu and vanishes where the
-  /// displacement is one polynomial; the discretization tells its form. All members are collective;
-  /// u needs its ghost values up to date.
+  /// Comput. Mech. 50 (2012). The penalty vanishes where the displacement is one polynomial; the
+  /// discretization tells its form. It is in proportion to min(lambda, 2 mu) + 2 mu: with all of a
+  /// large lambda it would hold nearly incompressible bodies from shearing too. All members are
+  /// collective; u needs its ghost values up to date.
   class Stabilization
   {
   public:
@@ -41,7 +42,7 @@ namespace softcell
   private:
     template <class Function>
     void for_each_patch(const Vector &u, const Function &function) const;
-    /// lambda + 2 mu. Units: Pa
+    /// min(lambda, 2 mu) + 2 mu. Units: Pa
     double modulus(const GhostFace &face) const;
     /// The penalty's forces in the nodes of a face. Units: N
     std::vector<Direction> forces(const GhostFace &face, const Vector &u) const;
