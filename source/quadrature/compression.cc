@@ -18,34 +18,31 @@ namespace softcell
 {
   namespace
   {
-    using Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
+    using Eigen::ArrayXd, Eigen::ArrayXXd, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::RowVector3d,
+      Eigen::VectorXd;
 
-    constexpr double exact                = 1e-11; // a misfit that is rounding
-    constexpr double smallest_weight      = 0.1;   // relative to the mean
-    constexpr unsigned int highest_degree = 16;    // of the polynomials
+    constexpr double exact           = 1e-11; // a misfit that is rounding
+    constexpr double smallest_weight = 0.1;   // relative to the mean
 
-    /// Legendre polynomials of mean square 1 at a point of [-1, 1], and their derivatives.
+    /// Legendre polynomials at points of [-1, 1], and their derivatives: (n_points, degree + 1).
     struct Legendre
     {
-      Legendre(const double x, const unsigned int degree)
+      Legendre(const ArrayXd &x, const unsigned int degree)
+          : values(x.size(), degree + 1), slopes(x.size(), degree + 1)
       {
-        values[0] = 1;
-        slopes[0] = 0;
-        values[1] = x;
-        slopes[1] = 1;
+        values.col(0) = 1;
+        slopes.col(0) = 0;
+        values.col(1) = x;
+        slopes.col(1) = 1;
         for (unsigned int k = 1; k < degree; ++k)
         {
-          values[k + 1] = ((2 * k + 1) * x * values[k] - k * values[k - 1]) / (k + 1);
-          slopes[k + 1] = slopes[k - 1] + (2 * k + 1) * values[k];
-        }
-        for (unsigned int k = 1; k <= degree; ++k)
-        {
-          values[k] *= std::sqrt(2. * k + 1);
-          slopes[k] *= std::sqrt(2. * k + 1);
+          values.col(k + 1) =
+            (2. * k + 1) / (k + 1) * x * values.col(k) - double(k) / (k + 1) * values.col(k - 1);
+          slopes.col(k + 1) = slopes.col(k - 1) + (2. * k + 1) * values.col(k);
         }
       }
 
-      std::array<double, highest_degree + 1> values, slopes;
+      ArrayXXd values, slopes;
     };
 
     /// Turns what is above the plane across an axis by an eighth of pi, and what is below it
@@ -67,7 +64,6 @@ namespace softcell
   Compression::Compression(const unsigned int degree) : degree_(degree)
   {
     const unsigned int n = 2 * degree;
-    Assert(n <= highest_degree, dealii::ExcInternalError());
     for (unsigned int x = 0; x <= n; ++x)
       for (unsigned int y = 0; y <= n; ++y)
         for (unsigned int z = 0; z <= n; ++z)
@@ -87,7 +83,8 @@ namespace softcell
   }
 
   /// Looks for one rule, in coordinates in which the box around the many points is [-1, 1]^3.
-  /// Unknown are, point after point, its coordinates and its weight relative to the mean.
+  /// Unknown are the coordinates x of all points, then all y, all z and all weights, the latter
+  /// relative to their mean.
   class Compression::Search
   {
   public:
@@ -98,26 +95,20 @@ namespace softcell
           n_points_(rule.start_weights_.size()),
           volume_(std::accumulate(weights.begin(), weights.end(), 0.))
     {
-      lower_ = upper_ = points[0];
-      for (const Point &p : points)
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          lower_[d] = std::min(lower_[d], p[d]);
-          upper_[d] = std::max(upper_[d], p[d]);
-        }
+      MatrixXd y(points.size(), 3);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        y.row(q) << points[q][0], points[q][1], points[q][2];
+      lower_ = y.colwise().minCoeff();
+      upper_ = y.colwise().maxCoeff();
+      edges_ = (upper_ - lower_).cwiseMax(1e-9); // all points may lie in a plane
+      for (unsigned int d = 0; d < 3; ++d)
+        y.col(d).array() = (2 * y.col(d).array() - lower_[d] - upper_[d]) / edges_[d];
+      const VectorXd w = Eigen::Map<const VectorXd>(weights.data(), weights.size()) / volume_;
 
-      std::vector<Vector3d> y;
-      for (const Point &p : points)
-        y.push_back(to_box(p));
-      target_ = VectorXd::Zero(rule.moments_.size());
-      for (unsigned int q = 0; q < y.size(); ++q)
-      {
-        add_moments(y[q], weights[q] / volume_, target_);
-        mean_ += weights[q] / volume_ * y[q];
-      }
-      Matrix3d covariance = Matrix3d::Zero();
-      for (unsigned int q = 0; q < y.size(); ++q)
-        covariance += weights[q] / volume_ * (y[q] - mean_) * (y[q] - mean_).transpose();
+      target_ = moments(y, w);
+      mean_   = w.transpose() * y;
+      y.rowwise() -= mean_;
+      const Matrix3d covariance = y.transpose() * w.asDiagonal() * y;
       const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
       root_ = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
               eigen.eigenvectors().transpose();
@@ -126,13 +117,11 @@ namespace softcell
     /// One of the starts.
     VectorXd start(const std::vector<Point> &points) const
     {
-      VectorXd v(4 * n_points_);
+      MatrixXd v(n_points_, 4);
       for (unsigned int q = 0; q < n_points_; ++q)
-      {
-        v.segment<3>(4 * q) = mean_ + root_ * Vector3d(points[q][0], points[q][1], points[q][2]);
-        v[4 * q + 3]        = n_points_ * rule_.start_weights_[q];
-      }
-      return bounded(v);
+        v.row(q) << mean_ + RowVector3d(points[q][0], points[q][1], points[q][2]) * root_,
+          n_points_ * rule_.start_weights_[q];
+      return bounded(v.reshaped());
     }
 
     /// Goes down to a minimum.
@@ -144,16 +133,19 @@ namespace softcell
       VectorXd residual                     = factors.cwiseProduct(misfits(v));
       for (unsigned int i = 0; i < max_iterations && residual.norm() > exact; ++i)
       {
-        const MatrixXd J  = factors.asDiagonal() * free_jacobian(v, factors.cwiseProduct(residual));
-        const MatrixXd JJ = J * J.transpose();
-        const double old  = residual.squaredNorm();
-        constexpr double too_short = 1e12;
+        // transposed: (n_unknowns, n_moments)
+        const MatrixXd J =
+          free_derivatives(v, factors.cwiseProduct(residual)) * factors.asDiagonal();
+        MatrixXd JJ = MatrixXd::Zero(J.cols(), J.cols());
+        JJ.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+        const double old           = residual.squaredNorm();
+        constexpr double too_short = 1e3;
         bool is_lower              = false;
         for (; !is_lower && damping < too_short; damping *= is_lower ? 0.02 : 6)
         {
           MatrixXd damped = JJ;
           damped.diagonal().array() += damping;
-          const VectorXd next = bounded(v - J.transpose() * damped.llt().solve(residual));
+          const VectorXd next = bounded(v - J * damped.llt().solve(residual));
           const VectorXd r    = factors.cwiseProduct(misfits(next));
           is_lower            = r.squaredNorm() < old;
           if (is_lower)
@@ -163,7 +155,7 @@ namespace softcell
           }
         }
         damping = std::max(damping, 1e-14);
-        if (residual.squaredNorm() > (1 - 1e-4) * old)
+        if (residual.squaredNorm() > 0.99 * old)
           break;
       }
       return v;
@@ -171,10 +163,7 @@ namespace softcell
 
     VectorXd misfits(const VectorXd &v) const
     {
-      VectorXd result = -target_;
-      for (unsigned int q = 0; q < n_points_; ++q)
-        add_moments(v.segment<3>(4 * q), v[4 * q + 3] / n_points_, result);
-      return result;
+      return moments(v.reshaped(n_points_, 4).leftCols(3), v.tail(n_points_) / n_points_) - target_;
     }
 
     void get(const VectorXd &v, std::vector<Point> &points, std::vector<double> &weights) const
@@ -184,74 +173,69 @@ namespace softcell
       for (unsigned int q = 0; q < n_points_; ++q)
       {
         for (unsigned int d = 0; d < 3; ++d)
-          points[q][d] =
-            std::clamp((lower_[d] + upper_[d] + v[4 * q + d] * edge(d)) / 2, lower_[d], upper_[d]);
-        weights[q] = v[4 * q + 3] * volume_ / n_points_;
+          points[q][d] = std::clamp((lower_[d] + upper_[d] + v[d * n_points_ + q] * edges_[d]) / 2,
+                                    lower_[d], upper_[d]);
+        weights[q] = v[3 * n_points_ + q] * volume_ / n_points_;
       }
     }
 
   private:
-    double edge(const unsigned int d) const
-    {
-      return std::max(upper_[d] - lower_[d], 1e-9); // all points may lie in a plane
-    }
-
-    Vector3d to_box(const Point &p) const
-    {
-      Vector3d y;
-      for (unsigned int d = 0; d < 3; ++d)
-        y[d] = (2 * p[d] - lower_[d] - upper_[d]) / edge(d);
-      return y;
-    }
-
-    void add_moments(const Vector3d &y, const double weight, VectorXd &moments) const
+    /// @param y (n_points, 3)
+    VectorXd moments(const MatrixXd &y, const ArrayXd &weights) const
     {
       const unsigned int n = 2 * rule_.degree_;
-      const Legendre a(y[0], n), b(y[1], n), c(y[2], n);
-      for (unsigned int m = 0; m < moments.size(); ++m)
+      const Legendre a(y.col(0), n), b(y.col(1), n), c(y.col(2), n);
+      MatrixXd sums(n + 1, (n + 1) * (n + 1));
+      for (unsigned int i = 0; i < sums.cols(); ++i)
+        sums.col(i) = c.values.matrix().transpose() *
+                      (weights * a.values.col(i / (n + 1)) * b.values.col(i % (n + 1))).matrix();
+
+      VectorXd result(rule_.moments_.size());
+      for (unsigned int m = 0; m < result.size(); ++m)
       {
         const Moment &d = rule_.moments_[m];
-        moments[m] += weight * a.values[d.x] * b.values[d.y] * c.values[d.z];
+        result[m]       = sums(d.z, d.x * (n + 1) + d.y);
       }
+      return result;
     }
 
-    /// Derivatives of the moments; 0 for an unknown at a bound that it would leave.
+    /// Derivatives (n_unknowns, n_moments) of the moments; 0 for an unknown at a bound that it
+    /// would leave.
     /// @param force on the moments, down the gradient.
-    MatrixXd free_jacobian(const VectorXd &v, const VectorXd &residual) const
+    MatrixXd free_derivatives(const VectorXd &v, const VectorXd &force) const
     {
-      const unsigned int n = 2 * rule_.degree_;
-      MatrixXd J(target_.size(), v.size());
-      for (unsigned int q = 0; q < n_points_; ++q)
+      const unsigned int n = 2 * rule_.degree_, n_points = n_points_;
+      const Legendre a(v.head(n_points), n), b(v.segment(n_points, n_points), n),
+        c(v.segment(2 * n_points, n_points), n);
+      const ArrayXd w = v.tail(n_points) / n_points;
+      MatrixXd J(v.size(), target_.size());
+      for (unsigned int m = 0; m < target_.size(); ++m)
       {
-        const Legendre a(v[4 * q], n), b(v[4 * q + 1], n), c(v[4 * q + 2], n);
-        const double w = v[4 * q + 3] / n_points_;
-        for (unsigned int m = 0; m < target_.size(); ++m)
-        {
-          const Moment &d = rule_.moments_[m];
-          const double x = a.values[d.x], y = b.values[d.y], z = c.values[d.z];
-          J.row(m).segment<4>(4 * q) << w * a.slopes[d.x] * y * z, w * x * b.slopes[d.y] * z,
-            w * x * y * c.slopes[d.z], x * y * z / n_points_;
-        }
+        const Moment &d = rule_.moments_[m];
+        const auto x = a.values.col(d.x), y = b.values.col(d.y), z = c.values.col(d.z);
+        J.col(m).array() << w * a.slopes.col(d.x) * y * z, w * x * b.slopes.col(d.y) * z,
+          w * x * y * c.slopes.col(d.z), x * y * z / n_points;
       }
-      const VectorXd gradient = J.transpose() * residual, pushed = bounded(v - 1e-6 * gradient);
+      const VectorXd pushed = bounded(v - 1e-6 * (J * force));
       for (unsigned int i = 0; i < v.size(); ++i)
         if (pushed[i] == v[i])
-          J.col(i).setZero();
+          J.row(i).setZero();
       return J;
     }
 
     VectorXd bounded(VectorXd v) const
     {
-      for (unsigned int i = 0; i < v.size(); ++i)
-        v[i] = i % 4 == 3 ? std::max(v[i], smallest_weight) : std::clamp(v[i], -1., 1.);
+      auto places = v.head(3 * n_points_);
+      places      = places.cwiseMax(-1).cwiseMin(1).eval();
+      auto w      = v.tail(n_points_);
+      w           = w.cwiseMax(smallest_weight).eval();
       return v;
     }
 
     const Compression &rule_;
     const unsigned int n_points_;
     const double volume_;
-    Point lower_, upper_;
-    Vector3d mean_ = Vector3d::Zero();
+    RowVector3d lower_, upper_, edges_, mean_;
     Matrix3d root_; // of the covariance
     VectorXd target_;
   };
@@ -264,8 +248,9 @@ namespace softcell
     VectorXd all(moments_.size()), of_one_gradient(moments_.size());
     for (unsigned int m = 0; m < moments_.size(); ++m)
     {
-      all[m]             = std::pow(0.5, moments_[m].x + moments_[m].y + moments_[m].z);
-      of_one_gradient[m] = moments_[m].is_of_one_gradient ? all[m] : 0;
+      const auto &[x, y, z, is_of_one_gradient] = moments_[m];
+      all[m] = std::pow(0.5, x + y + z) * std::sqrt((2. * x + 1) * (2 * y + 1) * (2 * z + 1));
+      of_one_gradient[m] = is_of_one_gradient ? all[m] : 0;
     }
 
     const Search search(*this, points, weights);
