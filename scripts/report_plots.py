@@ -12,6 +12,7 @@ from matplotlib import ticker
 
 from report_study import has_failed, length_unit, number, shown, values
 
+MOST_BARS = 40  # of a figure; then sweeps part them into figures
 HEIGHT = 3.1  # of the axes of a figure, in inches
 CROSS = {"linestyle": "", "marker": "x", "markersize": 8, "markeredgewidth": 2}
 plt.rcParams.update({"font.size": 9.5, "axes.titlesize": 10, "legend.fontsize": 9.5, "axes.linewidth": 0.8,
@@ -191,6 +192,8 @@ def level_plots(study):
 
 
 def cost_plots(study):
+    if has_single_cases(study):
+        return  # then there are bars
     rows, note = study.finest_levels()
     for title, part in study.panels(rows, study.tells):
         if len(values(part, "dofs")) < 2:
@@ -211,22 +214,24 @@ def bar_plots(study):
     """Of cases that only methods and sweeps tell apart, a bar for each."""
     if not has_single_cases(study) or len(study.rows) < 2:
         return
-    rows = study.rows[:30][::-1]
-    ys = [y for y in (REACHED, STEPS, NEWTON, LINEAR, SECONDS) if len(values(rows, y.column)) > 1][:3]
-    if not ys:
-        return
-    figure, panels = plt.subplots(1, len(ys), sharey=True, squeeze=False, figsize=(10.8, 0.9 + 0.24 * len(rows)))
-    for axes, y in zip(panels[0], ys):
-        bars = axes.barh([study.name(row, study.tells) for row in rows], [y.value(row) or 0 for row in rows], 0.7,
-                         color=[study.style(row, study.tells, rows)["color"] for row in rows])
-        for bar, row in zip(bars, rows):
-            if has_failed(row):
-                bar.set(hatch="////", edgecolor="white")
-        y.set_up(axes.xaxis, [], is_log=False)
-        axes.set_xlim(0, 1 if y is REACHED else None)
-        axes.grid(False, axis="y")
-    note = " Hatched: did not converge." if any(map(has_failed, rows)) else ""
-    yield finished(figure, panels[0], f"All cases side by side.{note}", figure.get_figheight())
+    for title, rows in study.panels(study.rows, study.tells, MOST_BARS):
+        ys = [y for y in (REACHED, STEPS, NEWTON, LINEAR, SECONDS) if len(values(rows, y.column)) > 1][:3]
+        if not ys:
+            continue
+        figure, panels = plt.subplots(1, len(ys), sharey=True, squeeze=False, figsize=(10.8, 0.9 + 0.24 * len(rows)))
+        for axes, y in zip(panels[0], ys):
+            bars = axes.barh([study.name(row, study.tells, rows) for row in rows], [y.value(row) or 0 for row in rows],
+                             0.7, color=[study.style(row, study.tells, rows)["color"] for row in rows])
+            for bar, row in zip(bars, rows):
+                if has_failed(row):
+                    bar.set(hatch="////", edgecolor="white")
+            y.set_up(axes.xaxis, [], is_log=False)
+            axes.set_xlim(0, 1 if y is REACHED else None)
+            axes.grid(False, axis="y")
+        panels[0][0].invert_yaxis()
+        panels[0][0].set_title(title, loc="left")
+        note = " Hatched: did not converge." if any(map(has_failed, rows)) else ""
+        yield finished(figure, panels[0], f"All cases side by side.{note}", figure.get_figheight())
 
 
 def count_plots(study):

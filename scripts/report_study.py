@@ -58,7 +58,8 @@ def length_unit(largest):
 def is_of_sizes(sweep):
     """Does an entry of section Sweeps set nothing but how large cells are?"""
     settings = [setting for choice in sweep.split("|") for setting in choice.partition(":")[2].split(";")]
-    return {setting.partition("=")[0].strip() for setting in settings} - {""} <= SIZES
+    entries = {setting.partition("=")[0].strip() for setting in settings} - {""}
+    return bool(entries) and entries <= SIZES
 
 
 class Study:
@@ -144,12 +145,12 @@ class Study:
                 found += list(csv.DictReader(stream))
         return found
 
-    def panels(self, rows, tells):
-        """Title and rows of each panel: as many sweeps as needed part the curves into panels."""
+    def panels(self, rows, tells, most=MOST_CURVES):
+        """Title and rows of each panel: as many sweeps as needed part the curves into panels of at most so many."""
         for n in range(len(self.sweeps) + 1):
             parts = {}
             for row in rows:
                 parts.setdefault(tuple(row.get(c) for c in self.sweeps[:n]), []).append(row)
-            if n == len(self.sweeps) or all(len(self.curves(part, tells)) <= MOST_CURVES for part in parts.values()):
+            if n == len(self.sweeps) or all(len(self.curves(part, tells)) <= most for part in parts.values()):
                 return [(", ".join(f"{c}: {v}" for c, v in zip(self.sweeps, key)), part) for key, part in parts.items()]
         return []

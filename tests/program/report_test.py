@@ -30,6 +30,21 @@ class Balance(html.parser.HTMLParser):
             self.wrong.append(tag)
 
 
+def write_sweep(folder):
+    """50 cases that nothing but their sweeps tell apart, of which some stop half way."""
+    table = [{"case": f"{load}_{remedy}", "method": "finite cell", "degree": 1, "dofs": 375, "load_steps": 3,
+              "newton_iterations": remedy, "linear_iterations": 40, "assembly_s": 0.001, "total_s": 0.1 + remedy,
+              "converged": "false" if remedy == 7 else "true", "load_factor": 0.5 if remedy == 7 else 1,
+              "cell_size": 0.1, "load": load, "remedy": f"remedy {remedy}", "failure": ""}
+             for load in ("bending", "torsion") for remedy in range(25)]
+    folder.mkdir()
+    with open(folder / "results.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, table[0])
+        writer.writeheader()
+        writer.writerows(table)
+    (folder / "run.json").write_text(json.dumps({"parameters": {"Sweeps/load": "", "Sweeps/remedy": ""}}))
+
+
 def write_study(folder):
     """Two methods and sizes, three levels and tissues; errors fall like h^2, one case stops half way, one has no numbers."""
     table, residuals = [], {}
@@ -80,7 +95,7 @@ def write_adaptive(folder):
     (folder / "run.json").write_text(json.dumps({"parameters": {"Sweeps/grid": sweep}}))
 
 
-def check_page(file, title, labels):
+def check_page(file, title, labels, legends=1):
     """The page is well-formed and needs nothing else; each plot has one legend and the labels are there."""
     page = file.read_text()
     balance = Balance()
@@ -91,7 +106,7 @@ def check_page(file, title, labels):
     plots = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
     for plot in plots:
         xml.etree.ElementTree.fromstring(plot.replace("xlink:", ""))
-        check(plot.count('id="legend_') == 1, f"{file}: a plot with {plot.count('id=legend_')} legends")
+        check(plot.count('id="legend_') == legends, f"{file}: not {legends} legend in a plot")
     texts = set(re.findall(r"<!-- (.*?) -->", "".join(plots)))  # matplotlib's, beside the glyphs
     missing = set(labels) - texts
     check(not missing, f"{file}: no label {missing} among {texts}")
@@ -120,6 +135,12 @@ def report(folder):
     check(not any("uniform 8" in plot or "cell size" in plot for plot in curves), "sizes are points of a curve")
 
     check("no step &lt;gains&gt; anything" in page and "stiff &amp; hard" in page, "texts are escaped")
+
+    write_sweep(folder / "sweep")
+    run = subprocess.run([*command, "sweep"], cwd=folder, capture_output=True, text=True, check=False)
+    check(run.returncode == 0, f"report.py: {run.stderr}")
+    _, plots = check_page(folder / "sweep" / "report.html", "sweep", {"load: bending", "load: torsion", "remedy 24"}, 0)
+    check(len(plots) == 2, f"bars in {len(plots)} plots")
 
     (folder / "study.prm").write_text("# A bar.\n" + BAR + """
 subsection Study
