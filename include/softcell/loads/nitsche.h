@@ -23,8 +23,10 @@ namespace softcell
   ///   int_S |v|^2 dA <= C int_K |v|^2 dV,   C = sum_k int_S phi_k^2 dA
   /// for all such gradients v; at p = 1, C is the area of S by the volume of K and no smaller
   /// number would do. With gamma = factor (lambda + 2 mu) C and factor > 1 the tangent of body and
-  /// support at rest is thus positive definite, however small the cut is. (A cell that bears n
-  /// supports needs factor > n, and strains that stiffen the material need some more.)
+  /// support at rest is thus positive definite in cells of one material, however small the cut is.
+  /// (A cell that bears n supports needs factor > n, and strains that stiffen the material need
+  /// some more. In a cell of two materials, the softer one may hardly hold what strains the stiffer
+  /// at S.)
   ///
   /// A gamma without bound would hold the surface of slivers as if by hand. Beyond
   /// `limit` (lambda + 2 mu)/h, h the size of the cell, it grows no more, and

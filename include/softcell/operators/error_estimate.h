@@ -12,11 +12,13 @@ namespace softcell
   /// The estimate of Zienkiewicz and Zhu of each cell's error in the energy norm, at degree 1.
   ///
   /// S is the Cauchy stress of u, and S* = sum_i N_i S_i with S_i = int N_i S / int
-  /// N_i what its averages at the nodes make of it. Where the solution is smooth, S* is nearer to
-  /// the truth than S, so that eta^2 = int (S* - S) : C^-1 : (S* - S) over a cell stands for its
-  /// squared error; C is the elasticity of the material at rest. Averages are taken for each
-  /// material alone, between which stress may jump. All integrals are those of the patches: what is
-  /// filled of a cell counts, so that slivers, whose stress means little, count little.
+  /// N_i what its averages at the nodes make of it. Inside the body, where the solution is smooth,
+  /// S* is nearer to the truth than S, so that eta^2 = int (S* - S) : C^-1 : (S* - S) over a cell
+  /// stands for its squared error; C is the elasticity of the material at rest. In cut cells and
+  /// others on the boundary, whose averages are one-sided, S* need not be nearer. Averages are
+  /// taken for each material alone, between which stress may jump. All integrals are those of the
+  /// patches: what is filled of a cell counts, so that slivers, whose stress means little, count
+  /// little.
   /// Source: Zienkiewicz and Zhu, Int. J. Numer. Meth. Eng. 24 (1987) 337-357. Departure: they
   /// project by the consistent mass matrix, which bad cuts make ill-conditioned; sums of a row of
   /// it are positive however a cell is cut.
