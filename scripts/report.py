@@ -57,8 +57,8 @@ def summary(study):
         finest = [max(curve, key=lambda row: number(row, "dofs") or 0)
                   for curve in study.curves(study.finest_levels()[0], study.tells)]
         rows = (finest + [row for row in study.rows if has_failed(row) and row not in finest])[:3 * MOST_ROWS]
-        what = ("The finest case of each series, then what did not converge" if len(finest) < len(study.rows)
-                else f"The first {len(rows)}")
+        what = (f"The first {len(rows)}" if len(finest) == len(study.rows) else "The finest case of each series"
+                + (", then what did not converge" if len(rows) > len(finest) else ""))
         note = f"<p class=small>{what}; all {len(study.rows)} cases are below.</p>"
     rows = [dict(row) for row in rows]
     for row in rows:
