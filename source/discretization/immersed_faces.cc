@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace softcell
@@ -140,12 +141,13 @@ namespace softcell
     face.label = body_.label(Point((boxes[0].center() + Direction(boxes[1].center())) / 2));
 
     const unsigned int n = face.nodes.size();
-    const double h       = boxes[0].side_length(neighbours.axis);
     face.products.assign(n * n, 0.);
     ShapeTable shapes;
     for (const Box &box : boxes)
     {
-      const double factor = ghost_penalty_ / (h * h) * box.volume();
+      const double h      = box.side_length(neighbours.axis);
+      const double share  = std::pow(boxes[0].side_length(neighbours.axis) / h, 2); // of its face
+      const double factor = ghost_penalty_ / (h * h) * share * box.volume();
       std::vector<double> jumps(gauss_points_.size() * n, 0.); // of the shapes (n_points, n)
       for (unsigned int k = 0; k < 2; ++k)
       {

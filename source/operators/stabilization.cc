@@ -17,7 +17,7 @@ namespace softcell
   {
     for (const Material &material : materials)
       laws_.push_back(material.visit([](const auto &law) {
-        return LinearElastic<>{law.lambda, law.mu};
+        return LinearElastic<>{std::min(law.lambda, 2 * law.mu), law.mu};
       }));
   }
 
@@ -56,7 +56,7 @@ namespace softcell
   double Stabilization::modulus(const GhostFace &face) const
   {
     const auto &law = laws_[face.label];
-    return std::min(law.lambda, 2 * law.mu) + 2 * law.mu;
+    return law.lambda + 2 * law.mu;
   }
 
   std::vector<Direction> Stabilization::forces(const GhostFace &face, const Vector &u) const

@@ -21,8 +21,8 @@ namespace softcell
       "Alpha", alpha,
       "Stiffness of what a cut cell holds beside the body, relative to the body's; a small value "
       "such as 1e-6 bounds the condition of linear systems, Newton's method gains little. It "
-      "follows the linear law with the body's Lame "
-      "parameters, has neither mass nor volume, and may turn inside out. Units: 1",
+      "follows the linear law with the body's mu and the lesser of its lambda and 2 mu, has "
+      "neither mass nor volume, and may turn inside out. Units: 1",
       dealii::Patterns::Double(0, 0.01));
     prm.add_parameter(
       "Ghost penalty", ghost_penalty,

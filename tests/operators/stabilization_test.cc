@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 namespace softcell
 {
@@ -24,8 +25,10 @@ namespace softcell
     /// A cube of 1 m in 3 x 3 x 3 cells of 0.5 m, of which the outer ones stand out by half.
     struct CutCube
     {
-      explicit CutCube(const CutParameters &cut, const double padding = 0.25)
-          : immersed("finite cell", 1, grid(padding), cut, *body, MPI_COMM_WORLD)
+      explicit CutCube(const CutParameters &cut,
+                       const double padding         = 0.25,
+                       const Refinement &refinement = {})
+          : immersed("finite cell", 1, grid(padding), cut, *body, MPI_COMM_WORLD, refinement)
       {
       }
 
@@ -68,6 +71,7 @@ namespace softcell
 
     const CutParameters soft_outside  = {1, alpha};
     const CutParameters ghost_penalty = {1, 0, 0, 0.1};
+    const Material nearly_incompressible("Neo-Hookean", 8 * 1.499, 0.499); // mu = 4
 
     /// Ratio of the largest eigenvalue to the smallest but `n_zero`; it gathers the matrix.
     double spectral_condition(const BlockMatrix &K, const unsigned int n_zero)
@@ -100,17 +104,23 @@ namespace softcell
     }
   } // namespace
 
+  /// Nearly incompressible (mu = 4 again), with lambda = 2 mu.
   TEST(Stabilization, FictitiousPartHasTheLinearEnergyOfWhatIsEmpty)
   {
     const CutCube cube(soft_outside);
-    const Stabilization stabilization(cube.immersed, cube.materials);
     // strains 0.2, -0.1, 0 along the axes and 0.05 of shear between x and y; and a rotation
-    const Vector u       = cube.displacement([](const Point &X) {
+    const Vector u     = cube.displacement([](const Point &X) {
       return Direction({0.2 * X[0] + 0.3 * X[1], -0.2 * X[0] - 0.1 * X[1], 7.});
     });
-    const double density = lambda / 2 * 0.1 * 0.1 + mu * (0.2 * 0.2 + 0.1 * 0.1 + 2 * 0.05 * 0.05);
-    const double empty   = std::pow(1.5, 3) - 1;
-    EXPECT_NEAR(stabilization.energy(u), alpha * empty * density, 1e-15);
+    const double shear = mu * (0.2 * 0.2 + 0.1 * 0.1 + 2 * 0.05 * 0.05);
+    const double empty = std::pow(1.5, 3) - 1;
+    for (const auto &[material, limited] :
+         {std::pair(cube.materials[0], lambda), std::pair(nearly_incompressible, 2 * mu)})
+    {
+      const Stabilization stabilization(cube.immersed, {material});
+      EXPECT_NEAR(stabilization.energy(u), alpha * empty * (limited / 2 * 0.1 * 0.1 + shear),
+                  1e-15);
+    }
     EXPECT_NEAR(Elasticity(cube.immersed, cube.materials).volume(), 1, 1e-13);
   }
 
@@ -153,19 +163,25 @@ namespace softcell
   }
 
   /// A kink of 1 in the plane x = 0.25, between nine pairs of cells of which one at least is cut.
-  /// Nearly incompressible (mu = 4 again), it does not grow with lambda.
+  /// Nearly incompressible, it does not grow with lambda. With all cells on the right halved, each
+  /// of 16 small faces has a box of (h/2)^3 and a quarter of one of h^3: the mean of both sizes.
   TEST(Stabilization, GhostPenaltyIsThatOfBurmanForTrilinearCells)
   {
-    const CutCube cube(ghost_penalty);
-    const Vector u     = cube.displacement([](const Point &X) {
-      return Direction({std::max(X[0] - 0.25, 0.), 0., 0.});
-    });
-    const double gamma = 0.1, h = 0.5, area = 9 * h * h;
-    for (const auto &[material, M] : {std::pair(cube.materials[0], lambda + 2 * mu),
-                                      std::pair(Material("Neo-Hookean", 8 * 1.499, 0.499), 4 * mu)})
+    Refinement right(1);
+    for (const double y : {0., 0.5, 1.})
+      for (const double z : {0., 0.5, 1.})
+        right[0].insert(right[0].end(), {Point(0.5, y, z), Point(1, y, z)});
+    for (const auto &[refinement, h, area] :
+         {std::tuple(Refinement(), 0.5, 9 * 0.5 * 0.5), std::tuple(right, 0.375, 1.)})
     {
-      const Stabilization stabilization(cube.immersed, {material});
-      EXPECT_NEAR(stabilization.energy(u), M / 2 * gamma * 2. / 3 * h * area, 1e-14);
+      const CutCube cube(ghost_penalty, 0.25, refinement);
+      const Vector u = cube.displacement([](const Point &X) {
+        return Direction({std::max(X[0] - 0.25, 0.), 0., 0.});
+      });
+      for (const auto &[material, M] : {std::pair(cube.materials[0], lambda + 2 * mu),
+                                        std::pair(nearly_incompressible, 4 * mu)})
+        EXPECT_NEAR(Stabilization(cube.immersed, {material}).energy(u),
+                    M / 2 * 0.1 * 2. / 3 * h * area, 1e-14);
     }
   }
 

@@ -56,11 +56,11 @@ namespace softcell
     /// times the part that is not filled: so every motion of the cell that strains it meets some
     /// resistance.
     Patch fictitious_patch(unsigned int i, PatchStorage &storage) const override;
-    /// With u_1 and u_2 the displacements of the two cells as polynomials, their energy is M/2 *
-    /// gamma / h^2 int |u_1 - u_2|^2 dV over both cells, with h across the face. That is at degree
-    /// 1 M/2 * gamma * 2/3 h int |jump of du/dn|^2 dA, of Burman (Ghost penalty, C. R. Math. 348,
-    /// 2010), and the same for any degree and for hanging nodes (Lehrenfeld and Olshanskii, ESAIM:
-    /// M2AN 53, 2019).
+    /// Their energy is M/2 * gamma / h^2 int |u_1 - u_2|^2 dV over both cells, u_k their
+    /// polynomials, each with its own h across the face; a cell shares itself out to four of half
+    /// its size. At degree 1 that is M/2 * gamma * 2/3 h int |jump of du/dn|^2 dA, h the mean, of
+    /// Burman (C. R. Math. 348, 2010); for any degree Lehrenfeld and Olshanskii (ESAIM: M2AN 53,
+    /// 2019). The label of M is the body's midway between the centres of the cells.
     View<const GhostFace> ghost_faces() const override
     {
       return {ghost_faces_.data(), ghost_faces_.size()};

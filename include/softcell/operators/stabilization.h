@@ -14,12 +14,15 @@ namespace softcell
   /// all, both with a quadratic energy: a soft material beside the body in cut cells, and a penalty
   /// on jumps between cut cells and their neighbours.
   ///
-  /// The material has the body's Lame parameters times alpha and is geometrically linear, so that
+  /// Both take min(lambda, 2 mu) for lambda: with all of a large one the first, at full Gauss
+  /// points, would lock and the second hold nearly incompressible bodies from shearing too. Up to a
+  /// Poisson's ratio of 1/3 it is the body's.
+  ///
+  /// The material has these Lame parameters times alpha and is geometrically linear, so that
   /// its tangent is constant and it may be turned inside out. Source: Schillinger et al., Small and
   /// large deformation analysis with the p- and B-spline versions of the Finite Cell Method,
   /// Comput. Mech. 50 (2012). The penalty vanishes where the displacement is one polynomial; the
-  /// discretization tells its form. It is in proportion to min(lambda, 2 mu) + 2 mu: with all of a
-  /// large lambda it would hold nearly incompressible bodies from shearing too. All members are
+  /// discretization tells its form. It is in proportion to lambda + 2 mu. All members are
   /// collective; u needs its ghost values up to date.
   class Stabilization
   {
@@ -42,12 +45,12 @@ namespace softcell
   private:
     template <class Function>
     void for_each_patch(const Vector &u, const Function &function) const;
-    /// min(lambda, 2 mu) + 2 mu. Units: Pa
+    /// lambda + 2 mu of a law. Units: Pa
     double modulus(const GhostFace &face) const;
     /// The penalty's forces in the nodes of a face. Units: N
     std::vector<Direction> forces(const GhostFace &face, const Vector &u) const;
 
     const Discretization &discretization_;
-    std::vector<LinearElastic<>> laws_;
+    std::vector<LinearElastic<>> laws_; // lambda limited
   };
 } // namespace softcell
