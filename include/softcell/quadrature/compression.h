@@ -18,15 +18,16 @@ namespace softcell
   /// - weights of at least a tenth of their mean, and
   /// - points in the smallest box around the many,
   /// whose moments, in Legendre polynomials orthonormal in that box and with those of total degree
-  /// d counted 2^-d, differ least. Found is a minimum near one of a few starts, each of which has
-  /// the volume, the centroid and the second moments of the many: the Gauss points of the cube,
-  /// mapped by the root of the covariance, as they are or twisted about an axis. The search is that
-  /// of Levenberg and Marquardt. Where it misses some moments, a short last step meets the volume
-  /// and the other moments of the gradients themselves.
+  /// d counted 2^-d, differ little. The search, that of Levenberg and Marquardt, starts from the
+  /// Gauss points of the cube, mapped by the root of the covariance: but for the bounds they have
+  /// the volume, the centroid and the second moments of the many. It ends where an iteration gains
+  /// less than 1 %, which need not be a minimum. Where it misses some moments, a short last step
+  /// goes for the volume and the other moments of the gradients themselves.
   ///
   /// At p = 1 nearly all cut cells get all moments to rounding, and so the stiffness at small
-  /// strain that the many points give. From p = 2 on there are more moments than free numbers: 121,
-  /// 108.
+  /// strain that the many points give; where not, the search is tried again from Gauss points
+  /// twisted about each axis. From p = 2 on there is one start only, since there are more moments
+  /// than free numbers: 121, 108.
   class Compression
   {
   public:
