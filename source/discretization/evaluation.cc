@@ -8,6 +8,7 @@
 #include <boost/serialization/utility.hpp> // a Box is a pair of points
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -48,6 +49,61 @@ namespace softcell
         for (unsigned int d = 0; d < 3; ++d)
           answers.push_back(gradient[c][d]);
     }
+
+    /// Fills in what the ranks know of those points that are not found yet. Collective.
+    void ask_all(const Discretization &discretization,
+                 const Vector &u,
+                 const std::vector<Point> &points,
+                 const double reach,
+                 PointValues &result)
+    {
+      const MPI_Comm communicator = discretization.communicator();
+      const auto boxes =
+        dealii::Utilities::MPI::all_gather(communicator, discretization.owned_box());
+
+      std::map<unsigned int, std::vector<double>> questions;      // coordinates, by rank
+      std::map<unsigned int, std::vector<unsigned int>> asked_of; // numbers of the points, by rank
+      for (unsigned int k = 0; k < points.size(); ++k)
+      {
+        if (!std::isinf(result.distances[k]))
+          continue;
+        for (unsigned int rank = 0; rank < boxes.size(); ++rank)
+        {
+          const double round_off =
+            1e-12 * boxes[rank].get_boundary_points().first.distance(points[k]);
+          if (distance(points[k], boxes[rank]) > reach + round_off)
+            continue;
+          asked_of[rank].push_back(k);
+          questions[rank].insert(questions[rank].end(), points[k].begin_raw(), points[k].end_raw());
+        }
+      }
+
+      std::map<unsigned int, std::vector<double>> answers;
+      for (const auto &[rank, coordinates] :
+           dealii::Utilities::MPI::some_to_some(communicator, questions))
+      {
+        answers[rank].reserve(coordinates.size() / 3 * answer_size);
+        for (std::size_t k = 0; k < coordinates.size(); k += 3)
+          answer(discretization, u, Point(coordinates[k], coordinates[k + 1], coordinates[k + 2]),
+                 reach, answers[rank]);
+      }
+
+      for (const auto &[rank, values] : dealii::Utilities::MPI::some_to_some(communicator, answers))
+        for (std::size_t i = 0; i < asked_of[rank].size(); ++i)
+        {
+          const double *const value = values.data() + i * answer_size;
+          const unsigned int k      = asked_of[rank][i];
+          if (!(value[0] < result.distances[k]))
+            continue;
+          result.distances[k] = value[0];
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            result.displacements[k][c] = value[1 + c];
+            for (unsigned int d = 0; d < 3; ++d)
+              result.gradients[k][c][d] = value[4 + 3 * c + d];
+          }
+        }
+    }
   } // namespace
 
   PointValues evaluate(const Discretization &discretization,
@@ -55,51 +111,15 @@ namespace softcell
                        const std::vector<Point> &points,
                        const double reach)
   {
-    const MPI_Comm communicator = discretization.communicator();
-    const auto boxes = dealii::Utilities::MPI::all_gather(communicator, discretization.owned_box());
-
-    std::map<unsigned int, std::vector<double>> questions;      // coordinates, by rank
-    std::map<unsigned int, std::vector<unsigned int>> asked_of; // numbers of the points, by rank
-    for (unsigned int k = 0; k < points.size(); ++k)
-      for (unsigned int rank = 0; rank < boxes.size(); ++rank)
-      {
-        const double round_off =
-          1e-12 * boxes[rank].get_boundary_points().first.distance(points[k]);
-        if (distance(points[k], boxes[rank]) > reach + round_off)
-          continue;
-        asked_of[rank].push_back(k);
-        questions[rank].insert(questions[rank].end(), points[k].begin_raw(), points[k].end_raw());
-      }
-
-    std::map<unsigned int, std::vector<double>> answers;
-    for (const auto &[rank, coordinates] :
-         dealii::Utilities::MPI::some_to_some(communicator, questions))
-    {
-      answers[rank].reserve(coordinates.size() / 3 * answer_size);
-      for (std::size_t k = 0; k < coordinates.size(); k += 3)
-        answer(discretization, u, Point(coordinates[k], coordinates[k + 1], coordinates[k + 2]),
-               reach, answers[rank]);
-    }
-
     PointValues result;
     result.displacements.resize(points.size());
     result.gradients.resize(points.size());
     result.distances.resize(points.size(), std::numeric_limits<double>::infinity());
-    for (const auto &[rank, values] : dealii::Utilities::MPI::some_to_some(communicator, answers))
-      for (std::size_t i = 0; i < asked_of[rank].size(); ++i)
-      {
-        const double *const value = values.data() + i * answer_size;
-        const unsigned int k      = asked_of[rank][i];
-        if (!(value[0] < result.distances[k]))
-          continue;
-        result.distances[k] = value[0];
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          result.displacements[k][c] = value[1 + c];
-          for (unsigned int d = 0; d < 3; ++d)
-            result.gradients[k][c][d] = value[4 + 3 * c + d];
-        }
-      }
+    // A rank looks through all its cells within reach for a point that another one's cell holds,
+    // so the points in cells are found first.
+    ask_all(discretization, u, points, 0, result);
+    if (reach > 0)
+      ask_all(discretization, u, points, reach, result);
     return result;
   }
 
