@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -42,6 +43,14 @@ TEST(Results, StandardColumnsComeFirst)
     "strain_energy,l2_displacement,min_jacobian,converged,tip_uz");
   EXPECT_EQ(values, "liver,,,,,,300,,,,,,,,,,,,,,,0.5");
   std::remove(results_file().c_str());
+}
+
+TEST(Results, KnowsTheColumnsThatOnlySomeRowsHave)
+{
+  const std::vector<std::string> columns = results_columns();
+  for (const char *const name :
+       {"refinement_steps", "estimated_error", "mean_surface_error", "max_surface_error"})
+    EXPECT_EQ(std::count(columns.begin(), columns.end(), name), 1) << name;
 }
 
 TEST(Results, QuotesTextAndKeepsEveryDigit)

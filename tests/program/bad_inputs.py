@@ -160,6 +160,8 @@ BAD_INPUTS = [
     ("sweep given twice", [], "@BAR@subsection Sweeps\n  set a = b:\n  set a = c:\nend\n",
      ["Sweeps/a", "another entry"]),
     ("sweep with a column's name", ["Sweeps/tip_ux = a: Material/Density = 1"], None, ["Sweeps/tip_ux", "column"]),
+    ("sweep with an error's name", ["Sweeps/estimated_error = a: Material/Density = 1"], None,
+     ["Sweeps/estimated_error", "column"]),
     ("sweep of what the study sweeps", ["Sweeps/size = a: Discretization/Cells = 3", "Study/Cells = 4, 5"], None,
      ["Discretization/Cells", "swept twice"]),
     ("sweep of the study", ["Sweeps/size = a: Study/Cells = 3"], None, ["Sweeps/size", "Study/Cells"]),
