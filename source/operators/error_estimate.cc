@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 
 namespace softcell
 {
@@ -147,7 +148,8 @@ namespace softcell
     for (const auto &some : dealii::Utilities::MPI::all_gather(communicator, squared_errors))
       all.insert(all.end(), some.begin(), some.end());
     std::sort(all.begin(), all.end(), std::greater<>());
-    double sum = 0, part = 0, threshold = 0;
+    double sum = 0, part = 0;
+    double threshold = fraction < 1 ? std::numeric_limits<double>::infinity() : 0;
     for (const double error : all)
       sum += error;
     if (fraction < 1)

@@ -63,8 +63,9 @@ namespace softcell
 
   double Simulation::estimated_error(const std::vector<double> &cell_errors) const
   {
-    const double sum = std::accumulate(cell_errors.begin(), cell_errors.end(), 0.);
-    return std::sqrt(dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD) /
-                     (2 * model_->elasticity().energy(displacement_)));
+    const double sum    = std::accumulate(cell_errors.begin(), cell_errors.end(), 0.);
+    const double all    = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+    const double energy = model_->elasticity().energy(displacement_);
+    return energy > 0 ? std::sqrt(all / (2 * energy)) : 0;
   }
 } // namespace softcell

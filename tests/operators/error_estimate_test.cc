@@ -167,6 +167,7 @@ namespace softcell
     EXPECT_EQ(largest_errors(some, 0.5, MPI_COMM_SELF), List({1, 3}));
     EXPECT_EQ(largest_errors(some, 1, MPI_COMM_SELF), List({0, 1, 2, 3}));
     EXPECT_EQ(largest_errors({1, 0, 0}, 1, MPI_COMM_SELF), List({0, 1, 2}));
+    EXPECT_EQ(largest_errors({0, 0, 0}, 0.5, MPI_COMM_SELF), List()); // nothing to gain
     // alike to round-off
     EXPECT_EQ(largest_errors({2, 1, 2 + 1e-15, 2 - 1e-15}, 0.2, MPI_COMM_SELF), List({0, 2, 3}));
     // each rank has its own; the last holds three quarters at least

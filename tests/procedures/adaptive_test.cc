@@ -94,6 +94,17 @@ namespace softcell
     EXPECT_GT(refined.row.number("dofs"), bent_ball(0, 0).row.number("dofs"));
   }
 
+  TEST(Adaptive, halves_no_cell_without_a_load)
+  {
+    Parameters p                      = body_of("box", {"weighted cell", 1}, 2);
+    p.regions                         = {{"base", "z < 1e-9"}};
+    p.load_entries                    = {{"base", "clamp"}};
+    p.discretization.refinement.steps = 1;
+    const ResultsRow row              = solve(p).row;
+    EXPECT_EQ(row.number("cells"), 8);
+    EXPECT_EQ(row.number("estimated_error"), 0);
+  }
+
   TEST(Adaptive, is_refused_where_it_is_not_available)
   {
     for (const Method &method : {Method{"hexahedra", 1}, Method{"weighted cell", 2}})

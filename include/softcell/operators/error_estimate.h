@@ -37,7 +37,7 @@ namespace softcell
   /// The fewest patches of all ranks that hold a part of the sum of the squared errors; of those
   /// that err alike to round-off, all or none. Collective.
   /// Source: Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
-  /// @param fraction in (0, 1]; 1 is all patches.
+  /// @param fraction in (0, 1]; 1 is all patches, and less is none if there is no error at all.
   /// @return those of this rank.
   std::vector<unsigned int>
   largest_errors(const std::vector<double> &squared_errors, double fraction, MPI_Comm communicator);

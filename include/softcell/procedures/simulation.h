@@ -107,7 +107,7 @@ namespace softcell
     /// Of each cell the estimate of the displacement's squared error. Units: J
     std::vector<double> cell_errors() const;
 
-    /// What these make of the error in the energy norm, relative.
+    /// What these make of the error in the energy norm, relative; 0 if there is no energy.
     double estimated_error(const std::vector<double> &cell_errors) const;
 
     /// @throws BadInput if a probe is farther from the body than a hundredth of its diagonal.
