@@ -19,6 +19,8 @@ namespace softcell
 {
   namespace
   {
+    constexpr double largest_rounds = 8; // that `Refinement steps` allow
+
     /// Positions and displacements of all nodes, three numbers each; rounds and points of
     /// refinement, four numbers each.
     struct Content
@@ -84,6 +86,16 @@ namespace softcell
       return false;
     }
 
+    /// Are these rows of a whole round and a point?
+    bool is_in_rows(const std::vector<double> &refinement)
+    {
+      bool is_good = refinement.size() % 4 == 0;
+      for (std::size_t i = 0; is_good && i < refinement.size(); i += 4)
+        is_good = refinement[i] >= 0 && refinement[i] < largest_rounds &&
+                  refinement[i] == std::floor(refinement[i]);
+      return is_good;
+    }
+
     Content read_content(const std::string &name)
     {
       Content content;
@@ -91,12 +103,13 @@ namespace softcell
       H5E_BEGIN_TRY
       {
         const hid_t file = H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-        content.is_good  = file >= 0 && read_data(file, "positions", content.positions) &&
-                          read_data(file, "displacement", content.displacement) &&
-                          read_data(file, "load_factor", load_factor) && load_factor.size() == 1 &&
-                          content.positions.size() == content.displacement.size() &&
-                          (H5Lexists(file, "refinement", H5P_DEFAULT) <= 0 ||
-                           read_data(file, "refinement", content.refinement));
+        content.is_good =
+          file >= 0 && read_data(file, "positions", content.positions) &&
+          read_data(file, "displacement", content.displacement) &&
+          read_data(file, "load_factor", load_factor) && load_factor.size() == 1 &&
+          content.positions.size() == content.displacement.size() &&
+          (H5Lexists(file, "refinement", H5P_DEFAULT) <= 0 ||
+           (read_data(file, "refinement", content.refinement) && is_in_rows(content.refinement)));
         H5Fclose(file);
       }
       H5E_END_TRY
@@ -112,13 +125,18 @@ namespace softcell
       return content;
     }
 
+    /// @throws BadInput
     Content read_on_root(const std::string &file, MPI_Comm communicator)
     {
       namespace mpi = dealii::Utilities::MPI;
       Content content;
       if (mpi::this_mpi_process(communicator) == 0)
         content = read_content(file);
-      return mpi::broadcast(communicator, content);
+      content = mpi::broadcast(communicator, content);
+      if (!content.is_good)
+        throw BadInput("The checkpoint '" + file +
+                       "' cannot be read; give a whole one that softcell wrote.");
+      return content;
     }
 
     std::vector<double> in_rows(const Refinement &refinement)
@@ -211,7 +229,7 @@ namespace softcell
   {
     Refinement refinement;
     const std::vector<double> rows = read_on_root(file, communicator).refinement;
-    for (std::size_t i = 0; i + 3 < rows.size(); i += 4)
+    for (std::size_t i = 0; i < rows.size(); i += 4)
     {
       refinement.resize(std::max<std::size_t>(refinement.size(), std::size_t(rows[i]) + 1));
       refinement[std::size_t(rows[i])].emplace_back(rows[i + 1], rows[i + 2], rows[i + 3]);
@@ -224,11 +242,6 @@ namespace softcell
     namespace mpi               = dealii::Utilities::MPI;
     const MPI_Comm communicator = discretization.communicator();
     const Content content       = read_on_root(file, communicator);
-    if (!content.is_good)
-      throw BadInput("The checkpoint '" + file +
-                     "' cannot be read; give a whole one that softcell "
-                     "wrote.");
-
     const NodesByPosition nodes(content.positions);
     int n_missing = 0;
     for (unsigned int i = 0; i < discretization.n_owned_nodes(); ++i)

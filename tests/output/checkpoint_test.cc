@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <hdf5.h>
 
 using namespace softcell;
 
@@ -53,10 +54,39 @@ TEST(Checkpoint, RefusesWhatIsTruncatedOrNoNumber)
     std::remove("checkpoint_test.h5");
 }
 
+TEST(Checkpoint, RefusesWhatIsNoRefinement)
+{
+  const test::OneTetrahedronPerRank cells;
+  Vector u           = cells.make_vector();
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  for (const double round : {0., 7., -1., 8., 0.5, 1e300})
+  {
+    write_checkpoint("checkpoint_test.h5", cells, u, 0.75, {{Point(1, 2, 3)}});
+    if (is_root)
+    {
+      const hid_t file    = H5Fopen("checkpoint_test.h5", H5F_ACC_RDWR, H5P_DEFAULT),
+                  data    = H5Dopen2(file, "refinement", H5P_DEFAULT);
+      const double row[4] = {round, 1, 2, 3};
+      EXPECT_GE(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, row), 0);
+      H5Dclose(data);
+      H5Fclose(file);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (round == 0 || round == 7)
+      EXPECT_EQ(read_refinement("checkpoint_test.h5", MPI_COMM_WORLD).size(), round + 1);
+    else
+      EXPECT_THROW(read_refinement("checkpoint_test.h5", MPI_COMM_WORLD), BadInput) << round;
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+  if (is_root)
+    std::remove("checkpoint_test.h5");
+}
+
 TEST(Checkpoint, MissingFile)
 {
   const test::OneTetrahedronPerRank cells;
   Vector u = cells.make_vector();
+  EXPECT_THROW(read_refinement("no/such.h5", MPI_COMM_WORLD), BadInput);
   EXPECT_THROW(read_checkpoint("no/such.h5", cells, u), BadInput);
   EXPECT_THROW(write_checkpoint("no/such/folder.h5", cells, u, 1), BadInput);
 }

@@ -19,13 +19,12 @@ namespace softcell
                         double load_factor,
                         const Refinement &refinement = {});
 
-  /// How the grid of a checkpoint was refined; not at all if the file cannot be read, of which
-  /// read_checkpoint() tells. Collective.
+  /// How the grid of a checkpoint was refined. Collective. @throws BadInput as read_checkpoint().
   Refinement read_refinement(const std::string &file, MPI_Comm communicator);
 
   /// Fills u, ghosts too, from a checkpoint that any number of ranks wrote of the same
   /// discretization, or of one that has all of its nodes; these are told by their positions.
   /// Returns the load factor. Collective. @throws BadInput if the file cannot be read, holds what
-  /// is no number, or lacks a node.
+  /// is no number or no round of refinement, or lacks a node.
   double read_checkpoint(const std::string &file, const Discretization &discretization, Vector &u);
 } // namespace softcell
