@@ -6,6 +6,7 @@
 #include "image_header.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -205,5 +206,17 @@ namespace softcell
         index_values<8>(file, header, data, places, image);
     }
     return image;
+  }
+
+  std::string voxel_file(const std::string &file)
+  {
+    const std::filesystem::path path = file;
+    std::string ending               = path.extension();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](const unsigned char c) { return std::tolower(c); });
+    if (ending != ".mhd" && ending != ".nhdr")
+      return "";
+    const std::string name = read_image_header(file, read_bytes(file)).data_file;
+    return name.empty() ? "" : path.parent_path() / name;
   }
 } // namespace softcell

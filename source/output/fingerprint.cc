@@ -4,6 +4,7 @@
 #include <softcell/output/fingerprint.h>
 
 #include <softcell/base/version.h>
+#include <softcell/geometry/image.h>
 #include <softcell/output/commit.h>
 
 #include <cstdint>
@@ -24,6 +25,17 @@ namespace softcell
       return value;
     }
 
+    /// Size and time of change; empty if there is no such file.
+    std::string state_of(const std::string &file)
+    {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(file, error))
+        return "";
+      const auto time = std::filesystem::last_write_time(file, error).time_since_epoch();
+      return std::to_string(std::filesystem::file_size(file, error)) + ' ' +
+             std::to_string(time.count());
+    }
+
     std::string program()
     {
       std::string name = std::string(version) + '\n' + commit;
@@ -40,13 +52,11 @@ namespace softcell
     std::uint64_t value                   = of_program;
     for (const auto &[name, text] : values)
     {
-      value = hash(name + '=' + text + '\n', value);
-      std::error_code error;
-      if (std::filesystem::is_regular_file(text, error))
-        value = hash(std::to_string(std::filesystem::file_size(text, error)) + ' ' +
-                       std::to_string(
-                         std::filesystem::last_write_time(text, error).time_since_epoch().count()),
-                     value);
+      value                   = hash(name + '=' + text + '\n', value);
+      const std::string state = state_of(text);
+      value                   = hash(state, value);
+      if (!state.empty())
+        value = hash(state_of(voxel_file(text)), value);
     }
     char digits[17];
     std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(value));

@@ -34,3 +34,23 @@ TEST(Fingerprint, ChangesWithTheFileThatAValueNames)
   EXPECT_NE(one, fingerprint({{"Geometry/File", file}}));
   std::remove(file.c_str());
 }
+
+TEST(Fingerprint, ChangesWithTheVoxelsThatAHeaderNames)
+{
+  const std::string name =
+    "fingerprint_test_" + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  std::ofstream(name + ".mhd") << "DimSize = 1 1 1\nElementType = MET_UCHAR\nElementDataFile = "
+                               << name << ".raw\n";
+  std::ofstream(name + ".nhdr") << "NRRD0004\nsizes: 1 1 1\ntype: uchar\nencoding: raw\n"
+                                << "data file: " << name << ".raw\n\n";
+  for (const char *const ending : {".mhd", ".nhdr"})
+  {
+    std::ofstream(name + ".raw") << "1";
+    const std::string one = fingerprint({{"Geometry/File", name + ending}});
+    EXPECT_EQ(one, fingerprint({{"Geometry/File", name + ending}}));
+    std::ofstream(name + ".raw") << "12";
+    EXPECT_NE(one, fingerprint({{"Geometry/File", name + ending}}));
+  }
+  for (const char *const ending : {".mhd", ".nhdr", ".raw"})
+    std::remove((name + ending).c_str());
+}

@@ -34,4 +34,8 @@ namespace softcell
   /// @throws BadInput for a file that is missing, cut short, damaged, oblique, not of integers or
   /// no segmentation.
   LabelImage read_image(const std::string &file, double scale);
+
+  /// The file of the voxels that a detached header (.mhd, .nhdr) names; empty for any other file.
+  /// @throws BadInput for a header that is missing or cannot be understood.
+  std::string voxel_file(const std::string &file);
 } // namespace softcell
