@@ -51,8 +51,11 @@ namespace softcell
                                        const std::vector<Point> &vertices);
 
   /// The integration points by which a discretization is measured against a known displacement:
-  /// those of finite cells of its degree, two along each edge of a cell. Its own would not do,
-  /// since gradients are superconvergent there. Collective.
+  /// those of finite cells of its degree, two along each edge of a cell of its background grid as
+  /// it was before any refinement, or of `Mesh size`. Its own would not do, since gradients are
+  /// superconvergent there. Where cells are halved more than once, or a `Mesh file` has smaller
+  /// ones than `Cells` make, several of them share one of these, and the errors are a sample.
+  /// Collective.
   /// @param parameters,geometry what it and its body were made from.
   std::unique_ptr<Discretization> finer_points(const DiscretizationParameters &parameters,
                                                const GeometryParameters &geometry,
