@@ -36,6 +36,8 @@ namespace softcell
       return hanging;
     }
 
+    constexpr unsigned int nothing = 1; // number of the element of cells without nodes
+
     std::vector<Dof> sorted(std::vector<Dof> dofs)
     {
       std::sort(dofs.begin(), dofs.end());
@@ -69,13 +71,43 @@ namespace softcell
             factor_of(i, master) += factor;
       return {masters, factors};
     }
+
+    /// Where nodes lie, by direction, told by their owners in the grid. Units: m
+    std::array<Vector, dim> positions_of_nodes(
+      const dealii::DoFHandler<3> &dofs,
+      const BackgroundGrid &grid,
+      const Lattice &lattice,
+      const TensorShapes &shapes,
+      const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner)
+    {
+      std::array<Vector, dim> positions;
+      for (Vector &component : positions)
+        component.reinit(partitioner);
+      const auto order = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(shapes.degree());
+      std::vector<Dof> cell_dofs(shapes.n_nodes());
+      for (const auto &cell : dofs.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->active_fe_index() != nothing)
+        {
+          const Box box = lattice.box(grid.place(cell->vertex(0), cell->level()));
+          cell->get_dof_indices(cell_dofs);
+          for (unsigned int k = 0; k < cell_dofs.size(); ++k)
+            if (const Dof dof = cell_dofs[order[k]]; partitioner->in_local_range(dof))
+            {
+              const Point X = box.unit_to_real(shapes.node(k));
+              for (unsigned int d = 0; d < dim; ++d)
+                positions[d](dof) = X[d];
+            }
+        }
+      for (Vector &component : positions)
+        component.update_ghost_values();
+      return positions;
+    }
   } // namespace
 
   void Immersed::number_nodes(const BackgroundGrid &grid,
                               const std::vector<BackgroundGrid::Cell> &taken)
   {
     // cells beside the body have no nodes, so that none hangs on them
-    constexpr unsigned int nothing = 1;
     dealii::DoFHandler<3> dofs(grid.triangulation());
     for (const auto &cell : dofs.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -121,30 +153,13 @@ namespace softcell
     if (ghost_penalty_ > 0)
       neighbours = find_neighbours(grid, taken, cell_dofs);
 
-    // where they lie, told by their owners in the grid
     const std::vector<Dof> seen = sorted(cell_dofs);
     dealii::IndexSet seen_set(dofs.n_dofs());
     seen_set.add_indices(seen.begin(), seen.end());
     const auto dof_partitioner = std::make_shared<const Partitioner>(
       dofs.locally_owned_dofs(), seen_set, grid.triangulation().get_communicator());
-    std::array<Vector, dim> positions;
-    for (Vector &component : positions)
-      component.reinit(dof_partitioner);
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->active_fe_index() != nothing)
-      {
-        const Box box = lattice_.box(grid.place(cell->vertex(0), cell->level()));
-        cell->get_dof_indices(unordered);
-        for (unsigned int k = 0; k < own.size(); ++k)
-          if (const Dof dof = unordered[order[k]]; dof_partitioner->in_local_range(dof))
-          {
-            const Point X = box.unit_to_real(shapes_.node(k));
-            for (unsigned int d = 0; d < dim; ++d)
-              positions[d](dof) = X[d];
-          }
-      }
-    for (Vector &component : positions)
-      component.update_ghost_values();
+    const std::array<Vector, dim> positions =
+      positions_of_nodes(dofs, grid, lattice_, shapes_, dof_partitioner);
 
     const std::vector<unsigned int> local = share_nodes(used, seen, dof_partitioner);
     node_positions_.resize(seen.size());
