@@ -5,6 +5,8 @@
 
 #include <softcell/studies/difference.h>
 
+#include <sstream>
+
 namespace softcell
 {
   namespace
@@ -23,7 +25,7 @@ namespace softcell
     }
   } // namespace
 
-  double
+  std::string
   add_errors(const Simulation &simulation, const Simulation *const reference, ResultsRow &row)
   {
     const Difference error = error_of(simulation, reference);
@@ -37,6 +39,12 @@ namespace softcell
       row.set("mean_surface_error", surface.mean);
       row.set("max_surface_error", surface.max);
     }
-    return error.missed;
+    if (error.missed == 0)
+      return "";
+    std::ostringstream text;
+    text.precision(2);
+    text << "the errors leave out " << 100 * error.missed
+         << " % of the reference's volume, which no cell is near; give more cells.";
+    return text.str();
   }
 } // namespace softcell

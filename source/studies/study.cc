@@ -8,6 +8,7 @@
 #include <softcell/base/files.h>
 #include <softcell/procedures/expected_memory.h>
 #include <softcell/procedures/simulation.h>
+#include <softcell/studies/bodies.h>
 #include <softcell/studies/case_errors.h>
 #include <softcell/studies/observed_rates.h>
 #include <softcell/studies/study_run.h>
@@ -17,10 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
 namespace softcell
@@ -52,15 +51,16 @@ namespace softcell
 
     private:
       std::filesystem::path folder_of(const StudyRun &run) const;
-      const Body &body_of(const Parameters &parameters);
       /// @param reference whose displacement the run may impose.
       std::unique_ptr<Simulation>
       build(StudyRun &run, const std::string &what, const Simulation *reference = nullptr);
       /// From now on there is a folder. Collective.
       void begin();
       void solve_all();
-      /// Makes reference_ that of the case, solved, or empty if it does not converge.
+      /// Makes reference_ that of the case, solved, or empty if it does not converge or fails.
       void provide_reference(const CaseRun &one);
+      void solve_reference(unsigned int index);
+      void warn_of_no_reference(const std::string &what);
       void solve_case(CaseRun &one, const std::string &what);
       void fail(CaseRun &one, const std::string &reason);
       void write_table();
@@ -75,7 +75,7 @@ namespace softcell
       std::vector<CaseRun> cases_; // those of the same reference together
       std::vector<StudyRun> references_;
       std::filesystem::path folder_;
-      std::map<std::string, std::unique_ptr<Body>> bodies_;
+      Bodies bodies_;
       std::unique_ptr<Simulation> reference_;
       unsigned int reference_index_ = dealii::numbers::invalid_unsigned_int; // of reference_
       bool has_folder_              = false;
@@ -88,7 +88,15 @@ namespace softcell
     {
       return dynamic_cast<const BadInput *>(&error) != nullptr ||
              dynamic_cast<const NotConverged *>(&error) != nullptr ||
-             dynamic_cast<const InvertedPoint *>(&error) != nullptr;
+             dynamic_cast<const InvertedPoint *>(&error) != nullptr ||
+             dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+    }
+
+    std::string reason_of(const std::exception &error)
+    {
+      return dynamic_cast<const std::bad_alloc *>(&error) != nullptr
+               ? "out of memory; use fewer cells or more machines"
+               : error.what();
     }
 
     Study::Study(const std::string &file,
@@ -114,39 +122,13 @@ namespace softcell
       return cases_.size() == 1 && &run == &cases_[0] ? folder_ : folder_ / run.name;
     }
 
-    const Body &Study::body_of(const Parameters &parameters)
-    {
-      std::string key;
-      for (const auto &[name, value] : parameters.entries)
-        if (name.rfind("Geometry/", 0) == 0)
-          key += name + '=' + value + '\n';
-      for (const unsigned int label : parameters.geometry.labels) // some come with materials
-        key += std::to_string(label) + ' ';
-      std::unique_ptr<Body> &body = bodies_[key];
-      if (body)
-        return *body;
-      std::vector<std::string> remarks;
-      // A file may be missing on some ranks' machines only.
-      on_all(MPI_COMM_WORLD, [&] { body = make_body(parameters.geometry, remarks); });
-      const auto [lower, upper] = body->bounding_box().get_boundary_points();
-      std::ostringstream text;
-      text.precision(4);
-      text << "Body: " << parameters.geometry.type << ", " << body->volume() << " m^3 between ("
-           << lower << ") and (" << upper << ") m";
-      console_.say(text.str());
-      for (const std::string &remark : remarks)
-        console_.say("  " + remark);
-      record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
-      return *body;
-    }
-
     std::unique_ptr<Simulation>
     Study::build(StudyRun &run, const std::string &what, const Simulation *const reference)
     {
       std::optional<DisplacementField> field;
       if (reference)
         field.emplace(reference->field());
-      const Body &body = body_of(run.parameters);
+      const Body &body = bodies_.get(run.parameters, console_, record_.remarks);
       console_.say(what + run.name);
       auto simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_,
                                                      field ? &*field : nullptr);
@@ -187,7 +169,8 @@ namespace softcell
       on_root(MPI_COMM_WORLD, [&] { check_folder(folder_.string()); });
       for (const CaseRun &one : cases_)
         if (!one.is_solved())
-          check_memory(one.parameters, body_of(one.parameters), MPI_COMM_WORLD);
+          check_memory(one.parameters, bodies_.get(one.parameters, console_, record_.remarks),
+                       MPI_COMM_WORLD);
       for (unsigned int i = references_.size(); i-- > 0;) // the first one stays, it is next
         if (is_needed(i))
         {
@@ -315,11 +298,9 @@ namespace softcell
           }
           catch (const std::exception &error)
           {
-            if (has_one_run() || (record_.ranks > 1 && !is_thrown_on_all(error)))
+            if (has_one_run() || !is_thrown_on_all(error))
               throw; // the other ranks may be waiting for this one
-            fail(one, dynamic_cast<const std::bad_alloc *>(&error) != nullptr
-                        ? "out of memory; use fewer cells or more machines"
-                        : error.what());
+            fail(one, reason_of(error));
           }
           say_what_is_left();
         }
@@ -330,18 +311,41 @@ namespace softcell
       StudyRun &run = references_[one.reference];
       if (reference_index_ != one.reference)
         reference_.reset(); // before the next one needs memory
-      const std::filesystem::path folder = folder_of(run);
-      if (run.is_solved())
+      try
       {
-        if (reference_index_ == one.reference || run.row.get("converged") == "false")
-          return;
-        StudyRun again                          = run;
-        again.parameters.procedure.start_from   = (folder / "checkpoint.h5").string();
-        again.parameters.procedure.coarse_grids = 0;
-        reference_                              = build(again, "Solved before: ");
-        reference_index_                        = one.reference;
-        return;
+        if (!run.is_solved())
+          solve_reference(one.reference);
+        else if (reference_index_ != one.reference && run.row.get("converged") != "false")
+        {
+          StudyRun again                          = run;
+          again.parameters.procedure.start_from   = (folder_of(run) / "checkpoint.h5").string();
+          again.parameters.procedure.coarse_grids = 0;
+          reference_                              = build(again, "Solved before: ");
+          reference_index_                        = one.reference;
+        }
       }
+      catch (const std::exception &error)
+      {
+        if (!is_thrown_on_all(error))
+          throw;
+        run.row = failed_row(run, reason_of(error));
+        warn_of_no_reference("The reference failed: " + reason_of(error));
+      }
+      if (run.row.get("converged") == "false" && imposes_reference(one.parameters))
+        throw BadInput("It imposes the displacement of the reference, which is not there: " +
+                       run.row.get("failure"));
+    }
+
+    void Study::warn_of_no_reference(const std::string &what)
+    {
+      record_.remarks.push_back(what);
+      console_.warn(what + " Its cases get no errors.");
+    }
+
+    void Study::solve_reference(const unsigned int index)
+    {
+      StudyRun &run                         = references_[index];
+      const std::filesystem::path folder    = folder_of(run);
       std::unique_ptr<Simulation> reference = std::move(reference_); // until it is solved
       if (!reference)
         reference = build(run, "");
@@ -351,14 +355,13 @@ namespace softcell
       run.linear_residuals = reference->linear_residuals();
       run.row.set("fingerprint", run.fingerprint);
       reference->write(folder);
-      reference_index_ = one.reference;
+      reference_index_ = index;
       if (is_solved)
         reference_ = std::move(reference);
       else
       {
         run.row.set("failure", reference->reason());
-        record_.remarks.push_back("The reference did not converge: " + reference->reason() + ".");
-        console_.warn(record_.remarks.back() + " Its cases get no errors.");
+        warn_of_no_reference("The reference did not converge: " + reference->reason() + ".");
       }
       time_left_.add(run.work, run.row.number("total_s"));
       keep(run, folder, record_);
@@ -372,14 +375,11 @@ namespace softcell
       const bool is_solved               = simulation->solve(folder);
       ResultsRow row                     = simulation->row();
       if (is_solved && (reference_ || simulation->exact()))
-        if (const double missed = add_errors(*simulation, reference_.get(), row); missed > 0)
+        if (const std::string warning = add_errors(*simulation, reference_.get(), row);
+            !warning.empty())
         {
-          std::ostringstream text;
-          text.precision(2);
-          text << one.name << ": the errors leave out " << 100 * missed
-               << " % of the reference's volume, which no cell is near; give more cells.";
-          console_.warn(text.str());
-          record_.remarks.push_back(text.str());
+          console_.warn(one.name + ": " + warning);
+          record_.remarks.push_back(one.name + ": " + warning);
         }
       for (const auto &[name, label] : one.labels)
         row.set(name, label);
@@ -390,7 +390,9 @@ namespace softcell
         console_.warn("Not converged: " + simulation->reason() + ".");
         row.set("failure", simulation->reason());
       }
-      row.set("fingerprint", one.fingerprint);
+      // a reference that failed is tried again, and with it its cases
+      if (references_.empty() || !references_[one.reference].row.get("fingerprint").empty())
+        row.set("fingerprint", one.fingerprint);
       one.row              = row;
       one.linear_residuals = simulation->linear_residuals();
       time_left_.add(one.work, row.number("total_s"));
@@ -405,16 +407,9 @@ namespace softcell
     void Study::fail(CaseRun &one, const std::string &reason)
     {
       console_.warn("Failed: " + reason);
-      one.row = {}; // without a fingerprint, so that it is tried again
-      one.row.set("case", one.name);
-      one.row.set("method", one.parameters.discretization.method);
-      one.row.set("degree", one.parameters.discretization.degree);
-      if (has_cut_levels(one.parameters.discretization.method))
-        one.row.set("cut_levels", one.parameters.discretization.cut.levels);
-      one.row.set("converged", false);
+      one.row = failed_row(one, reason);
       for (const auto &[name, label] : one.labels)
         one.row.set(name, label);
-      one.row.set("failure", reason);
       write_table();
     }
 

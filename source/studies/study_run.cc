@@ -140,6 +140,20 @@ namespace softcell
       run.row.set(column, value);
   }
 
+  ResultsRow failed_row(const StudyRun &run, const std::string &reason)
+  {
+    const DiscretizationParameters &parameters = run.parameters.discretization;
+    ResultsRow row;
+    row.set("case", run.name);
+    row.set("method", parameters.method);
+    row.set("degree", parameters.degree);
+    if (has_cut_levels(parameters.method))
+      row.set("cut_levels", parameters.cut.levels);
+    row.set("converged", false);
+    row.set("failure", reason);
+    return row;
+  }
+
   void keep(const StudyRun &run, const std::filesystem::path &folder, RunRecord record)
   {
     record.status           = run.row.get("converged") == "true" ? "done" : "not converged";

@@ -73,6 +73,14 @@ def resume(folder):
     (folder / "killed" / new[1] / "results.csv").unlink()
     out, _ = study(folder, "Study/Cells = 3, 4, 5", to="killed")
     check(solved(out) == ["reference", new[1]], f"what someone removed is solved again: {solved(out)}")
+    (folder / "killed" / "reference" / "checkpoint.h5").write_text("junk")
+    larger = "Study/Cells = 3, 4, 5, 6"
+    for _ in range(2):  # what has no errors is tried again
+        out, table = study(folder, larger, to="killed", status=2)
+        check(len(solved(out)) == 2 and out.count("The reference failed") == 1 and len(table) == 8,
+              f"a reference that fails is tried once: {solved(out)}")
+        check(all((row["relative_l2_error"] == "") == name.endswith("n6") for name, row in table.items()),
+              "cases go on without it")
     for settings in (["Material/Poisson ratio = 0.35"], ["Study/Resume = false"]):
         out, _ = study(folder, *settings, to="killed")
         check(solved(out) == ["reference", *CASES], f"{settings}: all is solved again: {solved(out)}")

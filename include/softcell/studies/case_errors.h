@@ -9,7 +9,8 @@ namespace softcell
   /// Adds the columns of errors against the manufactured solution or else against the reference.
   /// Collective.
   /// @param reference solved; may be null if there is a manufactured solution.
-  /// @return the fraction of the reference's volume that the errors leave out, since no cell is
-  ///         near.
-  double add_errors(const Simulation &simulation, const Simulation *reference, ResultsRow &row);
+  /// @return a warning if the errors leave out a part of the reference's volume, since no cell is
+  ///         near; else empty.
+  std::string
+  add_errors(const Simulation &simulation, const Simulation *reference, ResultsRow &row);
 } // namespace softcell

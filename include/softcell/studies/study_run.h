@@ -62,6 +62,9 @@ namespace softcell
               unsigned int n_ranks,
               const std::string &reference);
 
+  /// The row of a run that threw; without a fingerprint, so that it is tried again.
+  ResultsRow failed_row(const StudyRun &run, const std::string &reason);
+
   /// Leaves the row and the record of a run in its folder, as the last that it writes. Collective.
   /// @param record of the study.
   /// @throws BadInput if they cannot be written.
