@@ -78,7 +78,7 @@ namespace softcell
       const double wanted    = factor * constants[patch.cell];
       const double stiffness = std::min(wanted, limit / patch.cell_size);
       const double flux      = std::sqrt(stiffness / wanted);
-      factors_.push_back({stiffness, flux, 1 / (flux * constants[patch.cell])});
+      factors_.push_back({stiffness, flux, 1 / (4 * flux * constants[patch.cell])});
     }
   }
 
@@ -173,10 +173,11 @@ namespace softcell
   {
     const double step  = 1e-6; // no law offers third derivatives of its energy
     const Direction &N = patches_[p].normals[q];
-    const bool is_near = at_q.misfit.norm() <= factors_[p].largest_misfit;
     PointTangent M     = PointTangent::Zero();
     materials_[patches_[p].labels[q]].visit([&](const auto &law) {
       const auto linearisation = law.linearisation(at_q.F);
+      const bool is_near =
+        at_q.misfit.norm() <= factors_[p].largest_misfit * law.mu / (law.lambda + 2 * law.mu);
       for (unsigned int b = 0; b < 3; ++b)
         for (unsigned int B = 0; B < 3; ++B)
         {

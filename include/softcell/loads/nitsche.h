@@ -12,9 +12,11 @@ namespace softcell
   /// Nitsche's method for finite strain, from the potential
   ///   Pi = -int theta P(F) N . (u - g) dA + 1/2 int gamma |u - g|^2 dA.
   /// The residual is its exact derivative, and the tangent that of the residual but for one part:
-  /// theta d2P/dF2 N . (u - g) is left out where |u - g| > 1 / (theta C), C as below. There, as at
-  /// the start of a load step in cells of which the body fills little, it outweighs the stiffness
-  /// of the cell, and Newton's method would fail.
+  /// theta d2P/dF2 N . (u - g) is left out where |u - g| > mu / (4 (lambda + 2 mu) theta C), C as
+  /// below. There, as at the start of a load step in cells of which the body fills little, it would
+  /// outweigh the stiffness of the cell, and Newton's method would fail: at rest and with u - g
+  /// along N, the law of Saint-Venant and Kirchhoff takes (lambda + 2 mu) theta C |u - g| from the
+  /// mu that resists gradients a (x) N in shear, and the Neo-Hookean one hardly less from others.
   ///
   /// The volume of a sliver does not control the gradients of its shapes on its surface S. So F is
   /// made of their projection, by the quadrature of the cell K that holds S, onto polynomials of
@@ -23,10 +25,10 @@ namespace softcell
   ///   int_S |v|^2 dA <= C int_K |v|^2 dV,   C = sum_k int_S phi_k^2 dA
   /// for all such gradients v; at p = 1, C is the area of S by the volume of K and no smaller
   /// number would do. With gamma = factor (lambda + 2 mu) C and factor > 1 the tangent of body and
-  /// support at rest is thus positive definite in cells of one material, however small the cut is.
-  /// (A cell that bears n supports needs factor > n, and strains that stiffen the material need
-  /// some more. In a cell of two materials, the softer one may hardly hold what strains the stiffer
-  /// at S.)
+  /// support, at rest and where it should be, is thus positive definite in cells of one material,
+  /// however small the cut is. (A cell that bears n supports needs factor > n; strains that stiffen
+  /// the material and misfits need some more. In a cell of two materials, the softer one may hardly
+  /// hold what strains the stiffer at S.)
   ///
   /// A gamma without bound would hold the surface of slivers as if by hand. Beyond
   /// `limit` (lambda + 2 mu)/h, h the size of the cell, it grows no more, and
@@ -65,7 +67,7 @@ namespace softcell
     {
       double stiffness;      // gamma / (lambda + 2 mu). Units: 1/m
       double flux;           // theta
-      double largest_misfit; // 1 / (theta C), see below. Units: m
+      double largest_misfit; // 1 / (4 theta C), times (lambda + 2 mu) / mu too large. Units: m
     };
     /// The integrand's parts at a point of the surface.
     struct Terms
