@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cook's membrane at finite strain by FEniCSx: the numbers with which tests/program/run_program.py compares softcell.
 
-usage: cook_membrane.py     needs python3-dolfinx; prints the table of README.md
+usage: cook_membrane.py     needs python3-dolfinx; prints the rows n x n of the table in README.md
 
 Plane strain, Neo-Hookean as softcell has it, E = 240.565, held on x = 0, dead shear traction 6.25 on x = 48. Quadratic
 quadrilaterals, n x n of equal size along the edges. u_y is that of (48, 52), the middle of the loaded edge.
@@ -11,9 +11,10 @@ import logging
 
 import numpy as np
 import ufl
-from dolfinx import fem, log, mesh, nls
+from dolfinx import fem, log, mesh
 from mpi4py import MPI
-from petsc4py import PETSc
+
+from fenicsx import solve
 
 YOUNG, TRACTION = 240.565, 6.25
 POISSON = (0.3, 0.45, 0.499)
@@ -51,25 +52,9 @@ def deflections(n):
         energy = shear / 2 * (ufl.inner(F, F) - 2) - shear * ln_J + lame / 2 * ln_J**2
         factor = fem.Constant(domain, 0.0)
         residual = ufl.derivative(energy * dx, u, v) - factor * TRACTION * v[1] * ds(1)
-        solve(residual, u, clamp, factor)
+        solve(residual, u, clamp, factor, N_STEPS)
         results.append(u.x.array.reshape(-1, 2)[middle[0], 1])
     return results
-
-
-def solve(residual, u, clamp, factor):
-    """Newton's method with MUMPS, the load in equal steps."""
-    problem = fem.petsc.NonlinearProblem(residual, u, [clamp])
-    solver = nls.petsc.NewtonSolver(MPI.COMM_WORLD, problem)
-    solver.convergence_criterion = "incremental"
-    solver.rtol = 1e-10
-    options, prefix = PETSc.Options(), solver.krylov_solver.getOptionsPrefix()
-    options[prefix + "ksp_type"] = "preonly"
-    options[prefix + "pc_type"] = "lu"
-    options[prefix + "pc_factor_mat_solver_type"] = "mumps"
-    solver.krylov_solver.setFromOptions()
-    for step in range(1, N_STEPS + 1):
-        factor.value = step / N_STEPS
-        solver.solve(u)
 
 
 def main():

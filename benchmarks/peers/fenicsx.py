@@ -93,7 +93,7 @@ def fenicsx(body, degree, law, load):
 
     held = fem.locate_dofs_topological(V, 2, base)
     clamp = fem.dirichletbc(np.zeros(3), held, V)
-    solve(residual, u, clamp, factor)
+    solve(residual, u, clamp, factor, N_STEPS)
 
     forces = fem.petsc.assemble_vector(fem.form(residual)).array.reshape(-1, 3)
     rule, _ = basix.make_quadrature(
@@ -111,7 +111,7 @@ def fenicsx(body, degree, law, load):
     return results
 
 
-def solve(residual, u, clamp, factor):
+def solve(residual, u, clamp, factor, n_steps):
     """Newton's method with MUMPS, the load in equal steps."""
     problem = fem.petsc.NonlinearProblem(residual, u, [clamp])
     solver = nls.petsc.NewtonSolver(MPI.COMM_WORLD, problem)
@@ -122,8 +122,8 @@ def solve(residual, u, clamp, factor):
     options[prefix + "pc_type"] = "lu"
     options[prefix + "pc_factor_mat_solver_type"] = "mumps"
     solver.krylov_solver.setFromOptions()
-    for step in range(1, N_STEPS + 1):
-        factor.value = step / N_STEPS
+    for step in range(1, n_steps + 1):
+        factor.value = step / n_steps
         solver.solve(u)
 
 
