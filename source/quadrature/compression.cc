@@ -201,7 +201,7 @@ namespace softcell
 
     /// Derivatives (n_unknowns, n_moments) of the moments; 0 for an unknown at a bound that it
     /// would leave.
-    /// @param force on the moments, down the gradient.
+    /// @param force on the moments: the gradient is its product with the derivatives.
     MatrixXd free_derivatives(const VectorXd &v, const VectorXd &force) const
     {
       const unsigned int n = 2 * rule_.degree_, n_points = n_points_;
@@ -270,6 +270,11 @@ namespace softcell
     }
     if (misfit >= 10 * exact)
       best = search.descend(best, of_one_gradient);
+    // What changes where the body's boundary moves past one of the many points.
+    const double unknown = *std::min_element(weights.begin(), weights.end()) /
+                           std::accumulate(weights.begin(), weights.end(), 0.);
+    if (of_one_gradient.cwiseProduct(search.misfits(best)).norm() > unknown)
+      return 0;
     search.get(best, points, weights);
     return all.cwiseProduct(search.misfits(best)).norm();
   }

@@ -119,15 +119,47 @@ namespace softcell
 
   TEST(Compression, HigherDegreesKeepTheMomentsOfGradients)
   {
-    const Compression compression(2);
-    const auto body = [](const Point &p) { return p[0] + 0.7 * p[1] - 0.4 * p[2] < 0.6; };
-    const Rule many = many_points(body, 2, 4);
-    Rule few        = many;
-    EXPECT_LT(compression.compress(few.points, few.weights), 0.1);
-    ASSERT_EQ(few.points.size(), 27u);
-    expect_positive_and_inside(few, many);
-    for (const auto &[a, b, c] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 2, 1}, {2, 1, 2}, {1, 1, 1}})
-      EXPECT_NEAR(moment(few, a, b, c), moment(many, a, b, c), 1e-9);
+    const auto half   = [](const Point &p) { return p[0] + 0.7 * p[1] - 0.4 * p[2] < 0.6; };
+    const auto corner = [](const Point &p) { return p.norm() < 0.7; };
+    const auto others = [](const Point &p) { return p.norm() > 0.5; };
+    struct Case
+    {
+      unsigned int degree, n;
+      std::function<bool(const Point &)> body;
+    };
+    for (const auto &[degree, n, body] :
+         {Case{2, 4, half}, {2, 4, corner}, {2, 4, others}, {3, 2, others}})
+    {
+      const Compression compression(degree);
+      const Rule many = many_points(body, degree, n);
+      Rule few        = many;
+      EXPECT_LT(compression.compress(few.points, few.weights), 0.1);
+      ASSERT_EQ(few.points.size(), std::pow(degree + 1, 3));
+      expect_positive_and_inside(few, many);
+      for (unsigned int a = 0; a <= degree; ++a)
+        for (unsigned int b = 0; b <= degree; ++b)
+          for (unsigned int c = 0; c <= degree; ++c)
+            if (std::min({a, b, c}) < degree)
+            {
+              EXPECT_NEAR(moment(few, a, b, c), moment(many, a, b, c), 1e-9) << a << b << c;
+            }
+    }
+  }
+
+  /// Nearly all in one corner, the rest in the opposite one. There the integrals of x, y, z are
+  /// those of their products, so all points of a rule must be in one of both corners; but then a
+  /// single one weighs too much in the second.
+  TEST(Compression, KeepsThePointsWhereNoFewHaveTheirMoments)
+  {
+    for (unsigned int degree = 1; degree <= 2; ++degree)
+    {
+      Rule many = {std::vector<Point>(1000), std::vector<double>(1003, 1e-3)};
+      many.points.resize(1003, Point(1, 1, 1));
+      Rule kept = many;
+      EXPECT_EQ(Compression(degree).compress(kept.points, kept.weights), 0);
+      EXPECT_EQ(kept.points, many.points);
+      EXPECT_EQ(kept.weights, many.weights);
+    }
   }
 
   TEST(Compression, KeepsFewPointsAsTheyAre)

@@ -24,6 +24,9 @@ namespace softcell
   /// less than 1 %, which need not be a minimum. Where it misses some moments, a short last step
   /// goes for the volume and the other moments of the gradients themselves.
   ///
+  /// The many points stay where these still differ by more than the lightest of them weighs: by as
+  /// much as the many themselves do not know, for a body's boundary may lie anywhere between them.
+  ///
   /// At p = 1 nearly all cut cells get all moments to rounding, and so the stiffness at small
   /// strain that the many points give; where not, the search is tried again from Gauss points
   /// twisted about each axis. From p = 2 on there is one start only, since there are more moments
@@ -36,7 +39,8 @@ namespace softcell
 
     /// Rules of at most (p + 1)^3 points stay as they are.
     /// @param weights positive.
-    /// @return root of the sum of squares of the moments' misfits, relative to the volume.
+    /// @return root of the sum of squares of the moments' misfits, relative to the volume; 0 where
+    ///         the points stay.
     double compress(std::vector<Point> &points, std::vector<double> &weights) const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace softcell
 {
-  /// At most (degree + 1)^3 points for each material of a cut cell, which integrate what FiniteCell
+  /// (degree + 1)^3 points for each material of a cut cell, which integrate what FiniteCell
   /// integrates with its many at the same `levels` >= 1.
   ///
   /// Compression finds their places and weights. All weights are positive, all points lie in the
@@ -17,7 +17,8 @@ namespace softcell
   /// divergence theorem and patch test; large strain differs by what is beyond triquadratic.
   ///
   /// A cell in which FiniteCell has (degree + 1)^3 points or fewer keeps these. Like there, so few
-  /// points can leave a motion without strain to a node that has no other cell.
+  /// points can leave a motion without strain to a node that has no other cell. A cell for which
+  /// the search finds no rule keeps all of FiniteCell's points.
   ///
   /// Costs: the octree of FiniteCell and the search once for each cell; then those of WeightedCell
   /// and the shapes at its points. Degrees 1 to 3.
