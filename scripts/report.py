@@ -45,9 +45,9 @@ def table(rows, columns, heads=None):
 
 HEADS = {"method": "method", "degree": "degree", "cut_levels": "cut<br>levels", "h": "h, {unit}", "dofs": "unknowns",
          "load_steps": "load<br>steps", "newton_iterations": "Newton<br>iterations",
-         "linear_iterations": "linear<br>iterations", "assembly_s": "assembly,<br>s", "total_s": "total,<br>s",
-         "l2": "error in<br>L2, %", "observed_rate": "order", "h1": "error in<br>H1, %", "observed_rate_h1": "order",
-         "stress": "error of<br>stress, %", "failure": "load<br>reached"}
+         "linear_iterations": "linear<br>iterations", "condition": "condition", "assembly_s": "assembly,<br>s",
+         "total_s": "total,<br>s", "l2": "error in<br>L2, %", "observed_rate": "order", "h1": "error in<br>H1, %",
+         "observed_rate_h1": "order", "stress": "error of<br>stress, %", "failure": "load<br>reached"}
 
 
 def summary(study):
@@ -59,7 +59,8 @@ def summary(study):
         rows = (finest + [row for row in study.rows if has_failed(row) and row not in finest])[:3 * MOST_ROWS]
         what = (f"The first {len(rows)}" if len(finest) == len(study.rows) else "The finest case of each series"
                 + (", then what did not converge" if len(rows) > len(finest) else ""))
-        note = f"<p class=small>{what}; all {len(study.rows)} cases are below.</p>"
+        if len(rows) < len(study.rows):
+            note = f"<p class=small>{what}; all {len(study.rows)} cases are below.</p>"
     rows = [dict(row) for row in rows]
     for row in rows:
         if has_failed(row):
@@ -70,6 +71,8 @@ def summary(study):
                               ("stress", "relative_stress_error")):
             row[short] = str(100 * number(row, column)) if number(row, column) is not None else ""
     columns = [c for c in HEADS if c in study.tells or c not in ("degree", "cut_levels")]
+    if any(row["l2"] for row in rows):
+        columns.remove("condition")  # it is what studies without errors are about
     columns[1:1] = study.sweeps
     heads = {c: HEADS.get(c, html.escape(c)).format(unit=study.unit) for c in columns}
     return table(rows, columns, heads) + note

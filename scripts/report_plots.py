@@ -34,7 +34,7 @@ class Axis:
     def set_up(self, axis, numbers, is_log=True):
         axis.set_label_text(self.label)
         if self.integer or not is_log:
-            axis.set_major_locator(ticker.MaxNLocator(integer=self.integer))
+            axis.set_major_locator(ticker.MaxNLocator(6, integer=self.integer))
             return
         axis.axes.set_xscale("log") if axis.axis_name == "x" else axis.axes.set_yscale("log")
         marks = sorted({float(f"{n:.3g}") for n in numbers})
@@ -227,6 +227,7 @@ def bar_plots(study):
                     bar.set(hatch="////", edgecolor="white")
             y.set_up(axes.xaxis, [], is_log=False)
             axes.set_xlim(0, 1 if y is REACHED else None)
+            axes.set_ylim(-0.7, len(rows) - 0.3)
             axes.grid(False, axis="y")
         panels[0][0].invert_yaxis()
         panels[0][0].set_title(title, loc="left")
@@ -262,10 +263,15 @@ def history_plots(study):
     rows = [row for row in study.finest_levels()[0] if len(histories.get(row["case"], [])) > 1]
     for title, part in study.panels(rows, study.tells):
         figure, panels = new_figure(1, title)
-        for curve in study.curves(part, study.tells)[:12]:
-            row = max(curve, key=lambda one: number(one, "dofs") or 0)
-            style = {**study.style(row, study.tells, part), "markevery": 0.12}
-            panels[0].plot(histories[row["case"]], **style,
+        finest = [max(curve, key=lambda row: number(row, "dofs") or 0)
+                  for curve in study.curves(part, study.tells)[:12]]
+        styles = [study.style(row, study.tells, part) for row in finest]
+        have_one_colour = len(finest) > 1 and len({style["color"] for style in styles}) == 1
+        for i, (row, style) in enumerate(zip(finest, styles)):
+            history = histories[row["case"]]
+            if have_one_colour:
+                style = {**style, "color": f"C{i}"}
+            panels[0].plot(history, **style, markevery=max(1, len(history) // 8),
                            label=f"{study.name(row, study.tells, part)}, {shown(row['dofs'])[0]} unknowns")
         panels[0].set_yscale("log")
         panels[0].xaxis.set_major_locator(ticker.MaxNLocator(integer=True))

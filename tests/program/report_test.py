@@ -33,7 +33,8 @@ class Balance(html.parser.HTMLParser):
 def write_sweep(folder):
     """50 cases that nothing but their sweeps tell apart, of which some stop half way."""
     table = [{"case": f"{load}_{remedy}", "method": "finite cell", "degree": 1, "dofs": 375, "load_steps": 3,
-              "newton_iterations": remedy, "linear_iterations": 40, "assembly_s": 0.001, "total_s": 0.1 + remedy,
+              "newton_iterations": remedy, "linear_iterations": 40, "condition": 1234,
+              "assembly_s": 0.001, "total_s": 0.1 + remedy,
               "converged": "false" if remedy == 7 else "true", "load_factor": 0.5 if remedy == 7 else 1,
               "cell_size": 0.1, "load": load, "remedy": f"remedy {remedy}", "failure": ""}
              for load in ("bending", "torsion") for remedy in range(25)]
@@ -139,8 +140,10 @@ def report(folder):
     write_sweep(folder / "sweep")
     run = subprocess.run([*command, "sweep"], cwd=folder, capture_output=True, text=True, check=False)
     check(run.returncode == 0, f"report.py: {run.stderr}")
-    _, plots = check_page(folder / "sweep" / "report.html", "sweep", {"load: bending", "load: torsion", "remedy 24"}, 0)
+    page, plots = check_page(folder / "sweep" / "report.html", "sweep", {"load: bending", "load: torsion", "remedy 24"},
+                             0)
     check(len(plots) == 2, f"bars in {len(plots)} plots")
+    check(page.count("<th>condition</th>") == 2, "without errors the condition numbers are in the short table too")
 
     (folder / "study.prm").write_text("# A bar.\n" + BAR + """
 subsection Study
