@@ -146,13 +146,18 @@ namespace softcell
     const Box box       = body.bounding_box();
     const double h =
       1.13 / 4 * std::min({box.side_length(0), box.side_length(1), box.side_length(2)});
+    const std::string type    = GetParam();
     const auto check_boundary = [&](const Sums &all) {
-      // Pieces of curved sides are up to 1/20 of the radius wide, and their quadrature has degree
-      // 3; those of a cylinder's ends have kinks.
-      const bool has_kinks = GetParam() == std::string("cylinder");
-      EXPECT_LT(all.normal.norm(), (has_kinks ? 1e-7 : 1e-11) * all.area);
+      // Pieces are looked for 1e-9 of a cell inside the body. Those of curved sides are up to 1/20
+      // of the radius wide, and their quadrature has degree 3; a cylinder's ends have kinks.
+      double normal = 1e-12, flux = 1e-8;
+      if (type == "sphere" || type == "torus")
+        normal = 1e-11, flux = 6e-6;
+      else if (type == "cylinder")
+        normal = 1e-7, flux = 4e-5;
+      EXPECT_LT(all.normal.norm(), normal * all.area);
       EXPECT_NEAR(all.flux, 3 * (is_image ? body.surface().volume() : body.volume()),
-                  (has_kinks ? 4e-5 : 6e-6) * all.flux);
+                  flux * all.flux);
       EXPECT_NEAR(all.flux, 3 * body.volume(), 1e-3 * all.flux); // smoothed voxels
     };
 
@@ -185,15 +190,6 @@ namespace softcell
     EXPECT_GT(sparse.volume, body.volume());
     EXPECT_NEAR(sparse.volume, sparse.size.cells * h * h * h, 1e-12);
     EXPECT_LT(sparse.volume, body.volume() + sparse.size.cut_cells * h * h * h);
-  }
-
-  /// In each cell the integrals of the shapes' gradients are those of FiniteCell.
-  TEST_P(DivergenceTheorem, HoldsForMomentFittingAsForFiniteCell)
-  {
-    const Sums few = sums_of("moment fitting", 1, 2), many = sums_of("finite cell", 1, 2);
-    EXPECT_NEAR(few.volume, many.volume, 1e-9 * many.volume);
-    EXPECT_NEAR(few.defect, many.defect, 1e-6);
-    EXPECT_LT(few.size.integration_points, 8 * few.size.cells + 1);
   }
 
   INSTANTIATE_TEST_SUITE_P(

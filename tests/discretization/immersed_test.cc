@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Counts, nodes and shapes of immersed discretizations.
 
+#include "../box_surface.h"
 #include "linear_defect.h"
 
 #include <softcell/base/exceptions.h>
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/shapes.h>
+#include <softcell/geometry/surface_body.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -32,6 +36,15 @@ namespace softcell
         for (const double w : immersed.patch(i, storage).weights)
           volume += w;
       return dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
+    }
+    /// (3, n_nodes) Units: m^2
+    std::vector<double> integrated_gradients(const Patch &patch)
+    {
+      std::vector<double> result(3 * patch.n_nodes());
+      for (unsigned int q = 0; q < patch.n_points(); ++q)
+        for (unsigned int i = 0; i < result.size(); ++i)
+          result[i] += patch.weights[q] * patch.shapes->gradient(q)[i];
+      return result;
     }
   } // namespace
 
@@ -95,6 +108,34 @@ namespace softcell
                                   MPI_COMM_WORLD);
           EXPECT_LT(linear_defect(immersed), 1e-12) << rule << " " << degree << " " << refinement;
         }
+  }
+
+  /// The search for the few ends where an iteration gains little, so not always at rounding.
+  TEST(Immersed, EachCellOfMomentFittingIntegratesGradientsAsThatOfFiniteCell)
+  {
+    std::vector<std::unique_ptr<Body>> bodies;
+    bodies.push_back(make_sphere(0.5));
+    bodies.push_back(make_torus(0.7, 0.4));
+    bodies.push_back(std::make_unique<SurfaceBody>(turned_box_surface(Point(1, 1.25, 1.5))));
+    for (const auto &body : bodies)
+    {
+      const Immersed few("moment fitting", 1, cells_across(4), {2}, *body, MPI_COMM_SELF),
+        many("finite cell", 1, cells_across(4), {2}, *body, MPI_COMM_SELF);
+      ASSERT_EQ(few.n_patches(), many.n_patches());
+      PatchStorage storage;
+      for (unsigned int i = 0; i < few.n_patches(); ++i)
+      {
+        EXPECT_LE(few.patch(i, storage).n_points(), 8u);
+        const std::vector<double> found = integrated_gradients(few.patch(i, storage)),
+                                  exact = integrated_gradients(many.patch(i, storage));
+        ASSERT_EQ(found.size(), exact.size());
+        double largest = 0;
+        for (const double value : exact)
+          largest = std::max(largest, std::abs(value));
+        for (unsigned int k = 0; k < exact.size(); ++k)
+          EXPECT_NEAR(found[k], exact[k], 1e-9 * largest) << "cell " << i;
+      }
+    }
   }
 
   TEST(Immersed, HangingNodesCarryNoUnknowns)
