@@ -156,7 +156,7 @@ end
     check(status == 0, f"study: {out[-2000:]} {error}")
     draw = ["/usr/bin/python3", str(ROOT / "scripts" / "picture.py"), "--study", "study"]
     if "DISPLAY" not in os.environ and shutil.which("xvfb-run"):
-        draw = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", *draw]
+        draw = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24 -noreset", *draw]
     run = subprocess.run(draw, cwd=folder, capture_output=True, text=True, check=False)
     check(run.returncode == 0, f"picture.py: {run.stderr}")
     run = subprocess.run([*command, "study", "study.prm"], cwd=folder, capture_output=True, text=True, check=False)
