@@ -293,9 +293,11 @@ def draw_study(folder):
     if not all_bodies:
         return
     largest = max(one.largest() for one in all_bodies.values())
+    at_rest = np.vstack([one.at_rest for one in all_bodies.values()])
+    if largest < 1e-9 * np.ptp(at_rest, axis=0).max():
+        return  # only the inside moves
     name, factor = unit(largest)
     table = colours(top_of_scale(factor * largest))
-    at_rest = np.vstack([one.at_rest for one in all_bodies.values()])
     displacement = np.vstack([one.displacement for one in all_bodies.values()])
     for file, one in all_bodies.items():
         window = new_window(TILE)

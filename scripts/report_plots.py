@@ -43,7 +43,7 @@ class Axis:
             axis.set_major_locator(ticker.FixedLocator(marks))
         else:
             subs = ((1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8) if decades < 0.4 else (1, 1.5, 2, 3, 4, 6) if decades < 1.1
-                    else (1, 2, 5) if decades < 2.5 else (1,))
+                    else (1, 2, 5) if decades < 2 else (1,))
             axis.set_major_locator(ticker.LogLocator(subs=subs, numticks=20))
         axis.set_minor_locator(ticker.LogLocator(subs=range(1, 10), numticks=20))
         axis.set_major_formatter(tick)
