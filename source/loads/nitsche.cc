@@ -18,17 +18,6 @@ namespace softcell
   {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    Matrix3<double>
-    deformation_gradient(const SurfacePatch &patch, const unsigned int q, const Vector &u)
-    {
-      const Gradient gradient = interpolate_gradient(patch.nodes, patch.shapes.gradient(q), u);
-      Matrix3<double> F       = identity<double>();
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          F(a, b) += gradient[a][b];
-      return F;
-    }
-
     /// Projects the gradients of a surface's shapes as Nitsche says.
     /// @return the constant C of this piece. Units: 1/m
     double project_gradients(const Discretization &discretization, SurfacePatch &surface)
@@ -88,7 +77,7 @@ namespace softcell
     const SurfacePatch &patch = patches_[p];
     const Direction &N        = patch.normals[q];
     Terms terms;
-    terms.F      = deformation_gradient(patch, q, u);
+    terms.F = deformation_gradient(interpolate_gradient(patch.nodes, patch.shapes.gradient(q), u));
     terms.misfit = misfit(patch, q, u, t);
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int b = 0; b < 3; ++b)
@@ -110,7 +99,8 @@ namespace softcell
     for (const SurfacePatch &patch : patches_)
       for (unsigned int q = 0; q < patch.points.size(); ++q)
         materials_[patch.labels[q]].visit([&](const auto &law) {
-          is_inverted |= !law.is_admissible(determinant(deformation_gradient(patch, q, u)));
+          is_inverted |= !law.is_admissible(determinant(
+            deformation_gradient(interpolate_gradient(patch.nodes, patch.shapes.gradient(q), u))));
         });
     if (dealii::Utilities::MPI::logical_or(is_inverted, discretization_.communicator()))
       throw InvertedPoint("the displacement inverts the body on region '" + region() + "'");

@@ -19,16 +19,6 @@ namespace softcell
     /// A symmetric stress: its entries xx, yy, zz and yz, xz, xy.
     using Stress = std::array<Direction, 2>;
 
-    Matrix3<double> deformation_gradient(const Patch &patch, const unsigned int q, const Vector &u)
-    {
-      const Gradient H  = interpolate_gradient(patch.nodes, patch.shapes->gradient(q), u);
-      Matrix3<double> F = identity<double>();
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          F(i, j) += H[i][j];
-      return F;
-    }
-
     /// What the law takes for the change of volume; 0 where it takes none.
     double volumetric_strain(const Material &material, const Matrix3<double> &F)
     {
@@ -83,7 +73,8 @@ namespace softcell
           if (patch.label(q) == label && patch.weights[q] != 0)
           {
             points.push_back(q);
-            F.push_back(deformation_gradient(patch, q, u));
+            F.push_back(deformation_gradient(
+              interpolate_gradient(patch.nodes, patch.shapes->gradient(q), u)));
             strains.push_back(volumetric_strain(materials[label], F.back()));
             volume += patch.weights[q];
             change += patch.weights[q] * strains.back();

@@ -58,10 +58,7 @@ namespace softcell
     /// 0 where the law has no value. Units: Pa
     Matrix3<double> cauchy_stress(const Material &material, const Gradient &gradient)
     {
-      Matrix3<double> F = identity<double>();
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          F(i, j) += gradient[i][j];
+      const Matrix3<double> F = deformation_gradient(gradient);
       return material.visit([&](const auto &law) {
         return law.is_admissible(determinant(F)) ? law.cauchy_stress(F) : Matrix3<double>();
       });

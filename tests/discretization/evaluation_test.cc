@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Displacements at points of any rank.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/discretization/evaluation.h>
 

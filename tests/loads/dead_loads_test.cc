@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Resultants and moments of weight and traction.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/loads/dead_loads.h>
 

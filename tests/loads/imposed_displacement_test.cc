@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Displacements imposed on nodes.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/base/exceptions.h>
 #include <softcell/loads/imposed_displacement.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The section Loads.
 
+#include "../box_of_cells.h"
 #include "../box_surface.h"
-#include "../lattice.h"
 
 #include <softcell/base/exceptions.h>
 #include <softcell/loads/load_list.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Known displacements, their derivatives, and the forces that go with them.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/loads/manufactured_solution.h>
 

@@ -2,7 +2,7 @@
 // Nitsche's method on a box of cells, and the body's own force beside it.
 #pragma once
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/loads/nitsche.h>
 

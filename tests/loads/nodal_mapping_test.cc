@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Brunet's mapping of surface nodes to cells.
 
+#include "../box_of_cells.h"
 #include "../box_surface.h"
-#include "../lattice.h"
 
 #include <softcell/base/exceptions.h>
 #include <softcell/loads/dead_loads.h>

@@ -2,7 +2,7 @@
 // A load's tangent against central differences of its residual.
 #pragma once
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/loads/load.h>
 

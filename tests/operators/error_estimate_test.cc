@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The estimated error against true ones.
 
+#include "../box_of_cells.h"
 #include "lattice.h"
 
 #include <softcell/discretization/immersed.h>
@@ -45,22 +46,13 @@ namespace softcell
       return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD);
     }
 
-    Vector interpolant(const Discretization &discretization)
-    {
-      Vector u = discretization.make_vector();
-      for (unsigned int node = 0; node < discretization.node_positions().size(); ++node)
-        for (unsigned int c = 0; c < 3; ++c)
-          u.local_element(3 * node + c) = displacement(discretization.node_positions()[node])[c];
-      return u;
-    }
-
     /// Estimated by true error of the displacement's interpolant, whose gradient errs as that of
     /// the finite element solution up to what is of higher order. The true one is the integral of
     /// 2 mu e : e + lambda tr(e)^2 for the error e of the strain.
     double effectivity(const Discretization &discretization)
     {
       constexpr double mu = 1, lambda = 1.5; // of this Young modulus and Poisson ratio
-      const Vector u                  = interpolant(discretization);
+      const Vector u                  = nodal_values(discretization, displacement);
       const std::vector<double> found = squared_errors(discretization, linear, false, u);
       double error                    = 0;
       PatchStorage storage;
@@ -124,13 +116,9 @@ namespace softcell
     for (unsigned int i = 0; i < lattice.cells.size(); ++i)
       if (i % 3 == 2)
         lattice.cells[i].labels = {1}; // stress jumps where materials meet
-    Vector u = lattice.make_vector();
-    for (unsigned int node = 0; node < lattice.node_positions().size(); ++node)
-    {
-      const Point &X                = lattice.node_positions()[node];
-      u.local_element(3 * node)     = 0.1 * X[0] + 0.2 * X[1];
-      u.local_element(3 * node + 2) = 0.05 * X[0] - 0.1 * X[2];
-    }
+    const Vector u = nodal_values(lattice, [](const Point &X) {
+      return Direction({0.1 * X[0] + 0.2 * X[1], 0., 0.05 * X[0] - 0.1 * X[2]});
+    });
     for (const std::string model : {"linear", "Neo-Hookean", "Saint-Venant-Kirchhoff"})
       for (const double error : squared_errors(
              lattice, {Material(model, 1000, 0.3), Material(model, 5000, 0.4)}, false, u))
@@ -143,13 +131,9 @@ namespace softcell
   TEST(ErrorEstimate, SeesTheProjectedPressure)
   {
     const UnitCells lattice({{2, 3, 2}}, 2);
-    Vector u = lattice.make_vector();
-    for (unsigned int node = 0; node < lattice.node_positions().size(); ++node)
-    {
-      const Point &X                = lattice.node_positions()[node];
-      u.local_element(3 * node)     = X[0] * X[1];
-      u.local_element(3 * node + 1) = -X[1] * X[1] / 2;
-    }
+    const Vector u      = nodal_values(lattice, [](const Point &X) {
+      return Direction({X[0] * X[1], -X[1] * X[1] / 2, 0.});
+    });
     const auto estimate = [&](const double nu, const bool has_projection) {
       const std::vector<double> errors =
         squared_errors(lattice, {Material("linear", 2 * (1 + nu), nu)}, has_projection, u);

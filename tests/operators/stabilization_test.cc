@@ -3,6 +3,8 @@
 
 #include <softcell/operators/stabilization.h>
 
+#include "../box_of_cells.h"
+
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/shapes.h>
 #include <softcell/operators/elasticity.h>
@@ -42,11 +44,7 @@ namespace softcell
 
       Vector displacement(const std::function<Direction(const Point &)> &u) const
       {
-        Vector result = immersed.make_vector();
-        for (unsigned int node = 0; node < immersed.node_positions().size(); ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            result.local_element(3 * node + c) = u(immersed.node_positions()[node])[c];
-        return result;
+        return nodal_values(immersed, u);
       }
 
       Vector force(const Stabilization &stabilization, const Vector &u) const
@@ -201,13 +199,9 @@ namespace softcell
                                 at_cut[kind]);
         const Stabilization stabilization(immersed, materials);
         const auto energy = [&](const unsigned int power) {
-          Vector u = immersed.make_vector();
-          for (unsigned int node = 0; node < immersed.node_positions().size(); ++node)
-          {
-            const Point &X                = immersed.node_positions()[node];
-            u.local_element(3 * node + 1) = std::pow(X[0] + 0.5 * X[1] - X[2], power);
-          }
-          return stabilization.energy(u);
+          return stabilization.energy(nodal_values(immersed, [&](const Point &X) {
+            return Direction({0., std::pow(X[0] + 0.5 * X[1] - X[2], power), 0.});
+          }));
         };
         EXPECT_LT(energy(degree), 1e-13);
         EXPECT_GT(energy(degree + 1), 1e-6);

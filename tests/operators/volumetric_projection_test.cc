@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The projected change of volume against integrals by hand, and its derivatives by differences.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 #include "lattice.h"
 
 #include <softcell/discretization/methods.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The error of one displacement against another.
 
-#include "../lattice.h"
+#include "../box_of_cells.h"
 
 #include <softcell/studies/difference.h>
 

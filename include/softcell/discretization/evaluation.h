@@ -4,6 +4,7 @@
 #pragma once
 
 #include <softcell/discretization/discretization.h>
+#include <softcell/mechanics/tensor.h>
 
 #include <vector>
 
@@ -38,6 +39,16 @@ namespace softcell
         for (unsigned int d = 0; d < 3; ++d)
           value[c][d] += gradients[d * n + i] * u.local_element(3 * nodes[i] + c);
     return value;
+  }
+
+  /// F = I + H at a point whose displacement gradient is H.
+  inline Matrix3<double> deformation_gradient(const Gradient &H)
+  {
+    Matrix3<double> F = identity<double>();
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = 0; d < 3; ++d)
+        F(c, d) += H[c][d];
+    return F;
   }
 
   /// A displacement with the discretization that it belongs to; both outlive it.
