@@ -45,4 +45,12 @@ namespace softcell
     condition_->variables = {{X[0], X[1], X[2], normal[0], normal[1], normal[2]}};
     return condition_->expression.Eval() != 0;
   }
+
+  std::vector<Region> make_regions(const std::vector<std::pair<std::string, std::string>> &entries)
+  {
+    std::vector<Region> regions;
+    for (const auto &[name, condition] : entries)
+      regions.emplace_back(name, condition);
+    return regions;
+  }
 } // namespace softcell

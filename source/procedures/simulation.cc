@@ -43,14 +43,6 @@ namespace softcell
       return materials;
     }
 
-    std::vector<Region> make_regions(const Parameters &parameters)
-    {
-      std::vector<Region> regions;
-      for (const auto &[name, condition] : parameters.regions)
-        regions.emplace_back(name, condition);
-      return regions;
-    }
-
     std::vector<Point> probe_points(const Parameters &parameters)
     {
       std::vector<Point> points;
@@ -133,7 +125,7 @@ namespace softcell
         body_(body),
         console_(console),
         materials_(make_materials(parameters, body)),
-        regions_(make_regions(parameters)),
+        regions_(make_regions(parameters.regions)),
         probes_(probe_points(parameters))
   {
     if (reference != nullptr)

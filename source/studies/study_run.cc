@@ -6,6 +6,7 @@
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
+#include <softcell/loads/load_description.h>
 #include <softcell/output/fingerprint.h>
 #include <softcell/studies/study_cases.h>
 
@@ -57,9 +58,10 @@ namespace softcell
 
   bool imposes_reference(const Parameters &parameters)
   {
-    return std::any_of(
-      parameters.load_entries.begin(), parameters.load_entries.end(),
-      [](const auto &entry) { return entry.second.find("reference") != std::string::npos; });
+    const std::vector<LoadDescription> loads =
+      parse_loads(parameters.load_entries, make_regions(parameters.regions));
+    return std::any_of(loads.begin(), loads.end(),
+                       [](const LoadDescription &load) { return load.is_of_reference(); });
   }
 
   Work work_of(const Parameters &parameters, const double points, const double unknowns)

@@ -6,6 +6,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace softcell
 {
@@ -32,4 +34,8 @@ namespace softcell
     std::string name_;
     std::unique_ptr<Condition> condition_;
   };
+
+  /// Those of the section Regions: name and condition each.
+  /// @throws BadInput
+  std::vector<Region> make_regions(const std::vector<std::pair<std::string, std::string>> &entries);
 } // namespace softcell

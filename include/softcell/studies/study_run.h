@@ -45,6 +45,7 @@ namespace softcell
              const Parameters &parameters);
 
   /// Does a run take its loads from the reference?
+  /// @throws BadInput for loads that cannot be read.
   bool imposes_reference(const Parameters &parameters);
 
   /// By which the time of a run is guessed from that of others.
