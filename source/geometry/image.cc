@@ -214,7 +214,7 @@ namespace softcell
     std::string ending               = path.extension();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](const unsigned char c) { return std::tolower(c); });
-    if (ending != ".mhd" && ending != ".nhdr")
+    if (ending != ".mhd" && ending != ".mha" && ending != ".nhdr" && ending != ".nrrd")
       return "";
     const std::string name = read_image_header(file, read_bytes(file)).data_file;
     return name.empty() ? "" : path.parent_path() / name;

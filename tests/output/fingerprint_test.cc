@@ -39,11 +39,13 @@ TEST(Fingerprint, ChangesWithTheVoxelsThatAHeaderNames)
 {
   const std::string name =
     "fingerprint_test_" + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-  std::ofstream(name + ".mhd") << "DimSize = 1 1 1\nElementType = MET_UCHAR\nElementDataFile = "
-                               << name << ".raw\n";
-  std::ofstream(name + ".nhdr") << "NRRD0004\nsizes: 1 1 1\ntype: uchar\nencoding: raw\n"
-                                << "data file: " << name << ".raw\n\n";
-  for (const char *const ending : {".mhd", ".nhdr"})
+  for (const char *const ending : {".mhd", ".mha"})
+    std::ofstream(name + ending) << "DimSize = 1 1 1\nElementType = MET_UCHAR\nElementDataFile = "
+                                 << name << ".raw\n";
+  for (const char *const ending : {".nhdr", ".nrrd"})
+    std::ofstream(name + ending) << "NRRD0004\nsizes: 1 1 1\ntype: uchar\nencoding: raw\n"
+                                 << "data file: " << name << ".raw\n\n";
+  for (const char *const ending : {".mhd", ".mha", ".nhdr", ".nrrd"})
   {
     std::ofstream(name + ".raw") << "1";
     const std::string one = fingerprint({{"Geometry/File", name + ending}});
@@ -51,6 +53,6 @@ TEST(Fingerprint, ChangesWithTheVoxelsThatAHeaderNames)
     std::ofstream(name + ".raw") << "12";
     EXPECT_NE(one, fingerprint({{"Geometry/File", name + ending}}));
   }
-  for (const char *const ending : {".mhd", ".nhdr", ".raw"})
+  for (const char *const ending : {".mhd", ".mha", ".nhdr", ".nrrd", ".raw"})
     std::remove((name + ending).c_str());
 }

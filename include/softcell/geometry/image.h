@@ -35,7 +35,8 @@ namespace softcell
   /// no segmentation.
   LabelImage read_image(const std::string &file, double scale);
 
-  /// The file of the voxels that a detached header (.mhd, .nhdr) names; empty for any other file.
+  /// The file of the voxels that the header of a MetaImage or NRRD names; empty for any other file
+  /// and where the voxels follow the header.
   /// @throws BadInput for a header that is missing or cannot be understood.
   std::string voxel_file(const std::string &file);
 } // namespace softcell
