@@ -49,6 +49,7 @@ namespace softcell
                                                        "relative_stress_error",
                                                        "mean_surface_error",
                                                        "max_surface_error",
+                                                       "errors_s",
                                                        "observed_rate",
                                                        "observed_rate_h1",
                                                        "observed_rate_stress",

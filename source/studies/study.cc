@@ -92,6 +92,13 @@ namespace softcell
              dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     }
 
+    /// With the errors, where there are some.
+    double seconds_of(const ResultsRow &row)
+    {
+      const double errors = row.number("errors_s");
+      return row.number("total_s") + (std::isnan(errors) ? 0 : errors);
+    }
+
     std::string reason_of(const std::exception &error)
     {
       return dynamic_cast<const std::bad_alloc *>(&error) != nullptr
@@ -150,7 +157,7 @@ namespace softcell
         if (run.is_solved())
           time_left_.add(
             work_of(run.parameters, run.row.number("integration_points"), run.row.number("dofs")),
-            run.row.number("total_s"));
+            seconds_of(run.row));
       };
       for (StudyRun &reference : references_)
         find(reference, "", "checkpoint.h5");
@@ -256,19 +263,16 @@ namespace softcell
       {
         solve_all();
       }
-      catch (const BadInput &error)
-      {
-        if (has_folder_)
-          write_record("failed", error.what());
-        throw;
-      }
       catch (const std::exception &error)
       {
-        // Perhaps on this rank alone, so that nothing collective can be done.
-        record_.status  = "failed";
-        record_.message = error.what();
-        if (has_folder_)
+        if (has_folder_ && is_thrown_on_all(error))
+          write_record("failed", error.what());
+        else if (has_folder_) // perhaps on this rank alone, so that nothing collective can be done
+        {
+          record_.status  = "failed";
+          record_.message = error.what();
           write_run_record((folder_ / "run.json").string(), record_);
+        }
         throw;
       }
       const unsigned int n = n_failed();
@@ -363,7 +367,7 @@ namespace softcell
         run.row.set("failure", reference->reason());
         warn_of_no_reference("The reference did not converge: " + reference->reason() + ".");
       }
-      time_left_.add(run.work, run.row.number("total_s"));
+      time_left_.add(run.work, seconds_of(run.row));
       keep(run, folder, record_);
     }
 
@@ -395,7 +399,7 @@ namespace softcell
         row.set("fingerprint", one.fingerprint);
       one.row              = row;
       one.linear_residuals = simulation->linear_residuals();
-      time_left_.add(one.work, row.number("total_s"));
+      time_left_.add(one.work, seconds_of(row));
       write_table();
       simulation->write(folder);
       if (folder == folder_)

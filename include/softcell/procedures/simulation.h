@@ -76,6 +76,12 @@ namespace softcell
       return remarks_;
     }
 
+    /// What took how long; what is done with the solution may be added.
+    Timers &timers() const
+    {
+      return timers_;
+    }
+
     /// How far outside all cells a point of the body may lie. Units: m
     double reach() const;
 
