@@ -43,6 +43,42 @@ namespace softcell
     {
       return std::log(coarse / fine) / std::log(refinement);
     }
+
+    struct ImmersedCase
+    {
+      const char *body, *model;
+      Method method;
+      unsigned int coarse, fine;
+      double ghost_penalty;
+    };
+
+    /// Drawn on one half of the boundary and held by Nitsche's method on the other. Theory: p + 1
+    /// in L2 and p in H1. A lost term costs half an order at least; at so few cells, how the body
+    /// lies in the grid moves the order by less.
+    void expect_orders(const ImmersedCase &one)
+    {
+      SCOPED_TRACE(std::string(one.model) + ' ' + one.method.name + ' ' +
+                   std::to_string(one.method.degree));
+      const auto error_of = [&](const unsigned int n) {
+        Parameters p                       = body_of(one.body, one.method, n);
+        p.material.model                   = one.model;
+        p.discretization.cut.levels        = 3;
+        p.discretization.cut.ghost_penalty = one.ghost_penalty;
+        p.loads.manufactured               = "waves";
+        p.loads.imposition                 = "Nitsche";
+        p.regions      = {{"held", "nx + ny + nz > 0"}, {"loaded", "nx + ny + nz <= 0"}};
+        p.load_entries = {{"held", "displacement exact"}, {"loaded", "traction exact"}};
+        if (p.geometry.type == "surface")
+          return error(p, std::make_unique<SurfaceBody>(turned_box_surface(Point(1, 1, 1))));
+        return error(p);
+      };
+      const Difference at_coarse = error_of(one.coarse), at_fine = error_of(one.fine);
+      const double refinement = double(one.fine) / one.coarse;
+      EXPECT_GT(order(at_coarse.relative_l2, at_fine.relative_l2, refinement),
+                one.method.degree + 0.85);
+      EXPECT_GT(order(at_coarse.relative_h1, at_fine.relative_h1, refinement),
+                one.method.degree - 0.2);
+    }
   } // namespace
 
   /// Theory: p + 1 in L2, p in H1 and of the stress.
@@ -72,39 +108,26 @@ namespace softcell
       }
   }
 
-  /// A cube that lies across the grid, drawn on one half of its boundary and held by Nitsche's
-  /// method on the other. Theory: p + 1 in L2 and p in H1; weighted cells have it too while they
-  /// are so large that the error of their rule hides. A lost term costs half an order at least; at
-  /// so few cells, how the cube lies in the grid moves the order by less.
-  TEST(Manufactured, ImmersedMethodsHaveTheirOrders)
+  /// The cube lies across the grid. Weighted cells have the orders of finite cells too while they
+  /// are so large that the error of their rule hides.
+  TEST(Manufactured, ImmersedMethodsHaveTheirOrdersOnACube)
   {
-    struct Case
-    {
-      const char *model;
-      Method method;
-      unsigned int coarse, fine;
-    };
-    for (const auto &[model, method, coarse, fine] :
-         {Case{"Saint-Venant-Kirchhoff", {"finite cell", 1}, 6, 12},
-          {"Neo-Hookean", {"finite cell", 1}, 6, 12},
-          {"Neo-Hookean", {"finite cell", 2}, 3, 6},
-          {"Saint-Venant-Kirchhoff", {"weighted cell", 1}, 6, 12}})
-    {
-      SCOPED_TRACE(std::string(model) + ' ' + method.name + ' ' + std::to_string(method.degree));
-      const auto error_of = [&, model = model, method = method](const unsigned int n) {
-        Parameters p                       = body_of("surface", method, n);
-        p.material.model                   = model;
-        p.discretization.cut.levels        = 3;
-        p.discretization.cut.ghost_penalty = 0.01;
-        p.loads.manufactured               = "waves";
-        p.loads.imposition                 = "Nitsche";
-        p.regions      = {{"held", "nx + ny + nz > 0"}, {"loaded", "nx + ny + nz <= 0"}};
-        p.load_entries = {{"held", "displacement exact"}, {"loaded", "traction exact"}};
-        return error(p, std::make_unique<SurfaceBody>(turned_box_surface(Point(1, 1, 1))));
-      };
-      const Difference at_coarse = error_of(coarse), at_fine = error_of(fine);
-      EXPECT_GT(order(at_coarse.relative_l2, at_fine.relative_l2, 2), method.degree + 0.75);
-      EXPECT_GT(order(at_coarse.relative_h1, at_fine.relative_h1, 2), method.degree - 0.25);
-    }
+    for (const ImmersedCase &one :
+         {ImmersedCase{"surface", "Saint-Venant-Kirchhoff", {"finite cell", 1}, 6, 12, 0.01},
+          {"surface", "Neo-Hookean", {"finite cell", 1}, 6, 12, 0.01},
+          {"surface", "Neo-Hookean", {"finite cell", 2}, 3, 6, 0.01},
+          {"surface", "Saint-Venant-Kirchhoff", {"weighted cell", 1}, 6, 12, 0.01}})
+      expect_orders(one);
+  }
+
+  TEST(Manufactured, ImmersedMethodsHaveTheirOrdersOnABall)
+  {
+#ifndef NDEBUG
+    GTEST_SKIP() << "takes minutes without optimisation";
+#endif
+    for (const ImmersedCase &one :
+         {ImmersedCase{"sphere", "Saint-Venant-Kirchhoff", {"finite cell", 1}, 6, 12, 0.1},
+          {"sphere", "Saint-Venant-Kirchhoff", {"finite cell", 2}, 3, 4, 0.01}})
+      expect_orders(one);
   }
 } // namespace softcell
