@@ -136,6 +136,9 @@ namespace softcell
     if (!parameters.procedure.start_from.empty())
       take_refinement(parameters.procedure.start_from);
     build();
+    if (const unsigned int steps = parameters.discretization.refinement.steps; steps > 0)
+      console_.say("  before " + std::to_string(steps) + (steps == 1 ? " step" : " steps") +
+                   " of refinement, whose cells and memory are not foreseen");
     if (const std::string warning = locking(parameters.discretization, materials_);
         !warning.empty())
     {
