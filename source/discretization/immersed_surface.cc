@@ -29,6 +29,15 @@ namespace softcell
       return area;
     }
 
+    /// A point inside a convex polygon.
+    Point middle(const std::vector<Point> &corners)
+    {
+      Direction sum;
+      for (const Point &corner : corners)
+        sum += corner;
+      return Point(sum / double(corners.size()));
+    }
+
     double smallest(const Direction &v)
     {
       return std::min({v[0], v[1], v[2]});
@@ -110,7 +119,7 @@ namespace softcell
           return;
         if (cell == none)
         {
-          const auto near = nearest_active(place, polygon[0]);
+          const auto near = nearest_active(place, middle(polygon)); // corners are near to several
           if (near)
             cell = owned_cell(*near);
           else

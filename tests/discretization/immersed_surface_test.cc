@@ -77,6 +77,33 @@ namespace softcell
         }
   }
 
+  /// Faces of a box 1e-6 of a cell beyond the last cells that hold something.
+  TEST(ImmersedSurface, PiecesBesideTheCellsGoToTheOneThatTheyLieOn)
+  {
+    const auto body = make_box(Point(1, 1, 1));
+    const Immersed immersed("finite cell", 1, scaled_grid(6, 3 / (2 + 1e-6)), {2, 0}, *body,
+                            MPI_COMM_WORLD);
+    ASSERT_EQ(immersed.size().cells, 64);
+    double area = 0;
+    for (const SurfacePatch &patch : immersed.surface_patches(Region("all", "1")))
+    {
+      const Point &first = immersed.node_positions()[patch.nodes[0]];
+      Box cell({first, first});
+      for (const unsigned int node : patch.nodes)
+      {
+        const Point &X = immersed.node_positions()[node];
+        cell.merge_with(Box({X, X}));
+      }
+      cell.extend(1.001e-6 * patch.cell_size);
+      for (unsigned int q = 0; q < patch.points.size(); ++q)
+      {
+        EXPECT_TRUE(cell.point_inside(patch.points[q]));
+        area += patch.weights[q];
+      }
+    }
+    EXPECT_NEAR(dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD), 6, 1e-8);
+  }
+
   TEST(ImmersedSurface, FlushFacesHaveNodesThatDetermineThem)
   {
     const auto body = make_cylinder(0.05, 0.3);
