@@ -144,7 +144,9 @@ namespace softcell
       ShapeTable table;
       table.resize(1, 8);
       fill(xi, table, 0);
-      return PointShapes{cell_nodes(c), table.values, table.gradients, X.distance(nearest)};
+      return PointShapes{
+        cell_nodes(c), table.values, table.gradients,
+        Claim{X.distance(nearest), precedence_of(position(c, Point(0.5, 0.5, 0.5)))}};
     }
 
     Box owned_box() const override

@@ -16,7 +16,7 @@ namespace softcell
 {
   namespace
   {
-    constexpr unsigned int answer_size = 1 + 3 + 9; // distance, displacement, gradient
+    constexpr unsigned int answer_size = 2 + 3 + 9; // claim, displacement, gradient
 
     double distance(const Point &X, const Box &box)
     {
@@ -37,11 +37,12 @@ namespace softcell
       const auto shapes = discretization.shapes_at(X, reach);
       if (!shapes)
       {
-        answers.push_back(std::numeric_limits<double>::infinity());
+        answers.push_back(Claim().distance);
         answers.resize(answers.size() + answer_size - 1);
         return;
       }
-      answers.push_back(shapes->distance);
+      answers.push_back(shapes->claim.distance);
+      answers.push_back(shapes->claim.precedence);
       const Direction value   = interpolate(shapes->nodes, shapes->values.data(), u);
       const Gradient gradient = interpolate_gradient(shapes->nodes, shapes->gradients.data(), u);
       answers.insert(answers.end(), value.begin_raw(), value.end_raw());
@@ -88,19 +89,22 @@ namespace softcell
                  reach, answers[rank]);
       }
 
+      std::vector<Claim> claims(points.size());
       for (const auto &[rank, values] : dealii::Utilities::MPI::some_to_some(communicator, answers))
         for (std::size_t i = 0; i < asked_of[rank].size(); ++i)
         {
           const double *const value = values.data() + i * answer_size;
           const unsigned int k      = asked_of[rank][i];
-          if (!(value[0] < result.distances[k]))
+          const Claim claim{value[0], value[1]};
+          if (!claim.counts_before(claims[k], 1e-10 * reach))
             continue;
-          result.distances[k] = value[0];
+          claims[k]           = claim;
+          result.distances[k] = claim.distance;
           for (unsigned int c = 0; c < 3; ++c)
           {
-            result.displacements[k][c] = value[1 + c];
+            result.displacements[k][c] = value[2 + c];
             for (unsigned int d = 0; d < 3; ++d)
-              result.gradients[k][c][d] = value[4 + 3 * c + d];
+              result.gradients[k][c][d] = value[5 + 3 * c + d];
           }
         }
     }

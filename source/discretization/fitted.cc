@@ -190,10 +190,14 @@ namespace softcell
   {
     namespace index = boost::geometry::index;
     std::optional<std::pair<Point, unsigned int>> best;
-    double distance = reach;
-    // Ever more boxes around X, until the next one is farther than the cell that was found.
+    Claim claim{reach, std::numeric_limits<double>::lowest()};
+    const auto &corners    = cells_->box.get_boundary_points();
+    const double round_off = 1e-10 * corners.first.distance(corners.second);
+    // Ever more boxes around X, until the next one is farther than the cell that was found. Within
+    // a cell, away from its faces, no other cell has a claim.
+    bool is_within  = false;
     double next_box = 0;
-    for (unsigned int n = 8; next_box <= distance && !(best && distance == 0); n *= 8)
+    for (unsigned int n = 8; next_box <= claim.distance + round_off && !is_within; n *= 8)
     {
       std::vector<std::pair<Box, unsigned int>> boxes;
       cells_->tree.query(index::nearest(X, n), std::back_inserter(boxes));
@@ -202,16 +206,17 @@ namespace softcell
       {
         const double box_distance = boost::geometry::distance(X, box);
         next_box                  = std::max(next_box, box_distance);
-        if (box_distance > distance)
+        if (box_distance > claim.distance + round_off)
           continue;
         const auto [xi, outside] = cells_->locate(cell, X);
-        if (outside <= distance)
-        {
-          best     = {xi, cell};
-          distance = outside;
-          if (distance == 0)
-            break;
-        }
+        const Claim other{outside, precedence_of(cells_->centre(cell))};
+        if (!other.counts_before(claim, round_off))
+          continue;
+        best      = {xi, cell};
+        claim     = other;
+        is_within = cells_->reference.element->reference_cell().contains_point(xi, -1e-9);
+        if (is_within)
+          break;
       }
     }
     if (!best)
@@ -225,8 +230,8 @@ namespace softcell
     result.gradients.resize(3 * nodes.size());
     cells_->transform(cells_->jacobian(nodes, here.gradient(0)), here.gradient(0),
                       result.gradients.data());
-    result.values   = std::move(here.values);
-    result.distance = distance;
+    result.values = std::move(here.values);
+    result.claim  = claim;
     return result;
   }
 
@@ -267,7 +272,7 @@ namespace softcell
     }
     result.points = node_positions_;
     for (unsigned int node = 0; node < result.points.size(); ++node)
-      result.shapes.push_back({{node}, {1.}, {}, 0.});
+      result.shapes.push_back({{node}, {1.}, {}, {}});
     return result;
   }
 } // namespace softcell

@@ -25,6 +25,14 @@ namespace softcell
     return X;
   }
 
+  Point FittedCells::centre(const unsigned int cell) const
+  {
+    Point X;
+    for (const unsigned int node : nodes_of(cell))
+      X += positions[node] / n_nodes();
+    return X;
+  }
+
   Tensor<2, 3> FittedCells::jacobian(const View<const unsigned int> &cell, const double *dN) const
   {
     Tensor<2, 3> J;

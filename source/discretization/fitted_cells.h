@@ -54,6 +54,8 @@ namespace softcell
       return View<const unsigned int>(nodes.data() + std::size_t(cell) * n_nodes(), n_nodes());
     }
     Point position(const View<const unsigned int> &cell, const double *N) const;
+    /// Mean of its nodes.
+    Point centre(unsigned int cell) const;
     /// J_cd = dX_c / dxi_d
     dealii::Tensor<2, 3> jacobian(const View<const unsigned int> &cell, const double *dN) const;
     /// dN/dX from dN/dxi, both (3, n_nodes).

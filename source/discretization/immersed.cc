@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace softcell
@@ -264,31 +265,39 @@ namespace softcell
 
   std::optional<PointShapes> Immersed::shapes_at(const Point &X, const double reach) const
   {
-    unsigned int nearest    = owned_cell(lattice_.leaf(lattice_.index(X)));
-    double nearest_distance = std::max(
-      reach, 1e-9 * std::min({lattice_.spacing[0], lattice_.spacing[1], lattice_.spacing[2]}));
-    if (nearest != none)
-      nearest_distance = 0;
-    else
+    const double round_off =
+      1e-9 * std::min({lattice_.spacing[0], lattice_.spacing[1], lattice_.spacing[2]});
+    unsigned int nearest = none;
+    Claim claim{std::max(reach, round_off), std::numeric_limits<double>::lowest()};
+    const auto try_cell = [&](const unsigned int cell) {
+      const double d = distance(X, cells_[cell].place);
+      const Claim other{d > round_off ? d : 0.,
+                        precedence_of(lattice_.box(cells_[cell].place).center())};
+      if (other.counts_before(claim, round_off))
+      {
+        nearest = cell;
+        claim   = other;
+      }
+    };
+    const auto box_around = [&X](const double r) {
+      return Box({X - Direction({r, r, r}), X + Direction({r, r, r})});
+    };
+    const auto try_cells_around = [&](const double r) {
+      lattice_.for_each_leaf(box_around(r), [&](const Lattice::Cell &place) {
+        if (const unsigned int cell = owned_cell(place); cell != none)
+          try_cell(cell);
+      });
+    };
+    try_cells_around(round_off);
+    if (nearest == none && reach > round_off)
     {
-      const auto try_cell = [&](const unsigned int cell) {
-        if (const double d = distance(X, cells_[cell].place); d <= nearest_distance)
-        {
-          nearest          = cell;
-          nearest_distance = d;
-        }
-      };
       // the cells within reach, or all of this rank, whichever are fewer
-      const Direction r({nearest_distance, nearest_distance, nearest_distance});
-      const Box around({Point(X - r), Point(X + r)});
-      double n_around = 1;
+      const Box around = box_around(reach);
+      double n_around  = 1;
       for (unsigned int d = 0; d < dim; ++d)
         n_around *= around.side_length(d) / (lattice_.coarsest_size * lattice_.spacing[d]) + 1;
       if (n_around < cells_.size())
-        lattice_.for_each_leaf(around, [&](const Lattice::Cell &place) {
-          if (const unsigned int cell = owned_cell(place); cell != none)
-            try_cell(cell);
-        });
+        try_cells_around(reach);
       else
         for (unsigned int cell = 0; cell < cells_.size(); ++cell)
           try_cell(cell);
@@ -303,7 +312,7 @@ namespace softcell
     result.nodes.assign(n.begin(), n.end());
     result.values    = std::move(table.values);
     result.gradients = std::move(table.gradients);
-    result.distance  = nearest_distance;
+    result.claim     = claim;
     return result;
   }
 

@@ -80,7 +80,7 @@ namespace softcell
       bids.push_back({std::numeric_limits<double>::infinity(), my_rank});
       if (!shapes)
         continue;
-      bids.back().distance   = shapes->distance;
+      bids.back().distance   = shapes->claim.distance;
       found[bids.size() - 1] = patch_of_vertex(X, vertex, std::move(*shapes));
     }
     MPI_Allreduce(MPI_IN_PLACE, bids.data(), bids.size(), MPI_DOUBLE_INT, MPI_MINLOC,

@@ -4,6 +4,11 @@
 #include "../box_of_cells.h"
 
 #include <softcell/discretization/evaluation.h>
+#include <softcell/discretization/fitted.h>
+#include <softcell/discretization/hexahedral_mesh.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/discretization/tetrahedral_mesh.h>
+#include <softcell/geometry/shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +48,46 @@ namespace softcell
       EXPECT_LT((values.displacements[k] - field(points[k])).norm(), 1e-13) << points[k];
       EXPECT_LT((values.gradients[k] - field_gradient(points[k])).norm(), 1e-12) << points[k];
     }
+  }
+
+  // The displacement has a kink in every face, and all points lie on faces, in edges, in corners or
+  // beyond a symmetry plane of the outer cells.
+  TEST(Evaluation, TakesTheSameCellOnAnyNumberOfRanks)
+  {
+    const std::array<unsigned int, 3> n = {{4, 4, 4}};
+    const Point size(1, 1, 1);
+    const auto body     = make_box(size);
+    const auto immersed = [&](MPI_Comm communicator) {
+      GridParameters grid;
+      grid.cells = {4};
+      return std::make_unique<Immersed>("finite cell", 1, grid, CutParameters(), *body,
+                                        communicator);
+    };
+    const auto fitted = [&](const Mesh &mesh) {
+      return [&body, mesh](MPI_Comm communicator) {
+        return std::make_unique<Fitted>(communicator, mesh, 1, *body);
+      };
+    };
+    const auto check = [](const auto &make) {
+      const auto kinks = [](const Point &X) {
+        return Direction(
+          {std::sin(9 * X[0] + 2 * X[1]), std::cos(8 * X[1] * X[2]), 3 * X[2] * X[0]});
+      };
+      const auto shared = make(MPI_COMM_WORLD), alone = make(MPI_COMM_SELF);
+      std::vector<Point> points;
+      for (unsigned int i = 0; i < 11 * 9 * 9; ++i)
+        points.emplace_back((i % 11 - 1.) / 8, i / 11 % 9 / 8., i / 99 / 8.);
+      const PointValues some = evaluate(*shared, nodal_values(*shared, kinks), points, 0.5),
+                        all  = evaluate(*alone, nodal_values(*alone, kinks), points, 0.5);
+      for (unsigned int i = 0; i < points.size(); ++i)
+      {
+        EXPECT_NEAR(some.distances[i], all.distances[i], 1e-14) << points[i];
+        EXPECT_LT((some.gradients[i] - all.gradients[i]).norm(), 1e-10) << points[i];
+      }
+    };
+    check(immersed);
+    check(fitted(hexahedral_box(size, n)));
+    check(fitted(kuhn_box(size, n)));
   }
 
   TEST(Evaluation, ExtendsTheNearestCellWithinReach)

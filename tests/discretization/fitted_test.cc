@@ -101,7 +101,7 @@ namespace softcell
     {
       const auto found = fitted.shapes_at(X, 0);
       ASSERT_TRUE(found) << X;
-      EXPECT_EQ(found->distance, 0);
+      EXPECT_EQ(found->claim.distance, 0);
       const auto [u, gradient] =
         interpolant(fitted, view(found->nodes), found->values.data(), found->gradients.data());
       EXPECT_NEAR(u, polynomial(X, fitted.degree()), 1e-11);
@@ -111,7 +111,7 @@ namespace softcell
     EXPECT_FALSE(fitted.shapes_at(outside, 0.05));
     const auto found = fitted.shapes_at(outside, 0.5);
     ASSERT_TRUE(found);
-    EXPECT_NEAR(found->distance, 0.1, GetParam().tetrahedra ? 0.05 : 1e-12);
+    EXPECT_NEAR(found->claim.distance, 0.1, GetParam().tetrahedra ? 0.05 : 1e-12);
     const double u =
       interpolant(fitted, view(found->nodes), found->values.data(), found->gradients.data()).first;
     EXPECT_NEAR(u, polynomial(outside, fitted.degree()), 1e-10);

@@ -171,11 +171,11 @@ namespace softcell
         EXPECT_EQ(dealii::Utilities::MPI::logical_or(found, MPI_COMM_WORLD), expected);
         if (!found)
           return;
-        EXPECT_LE(shapes->distance, reach + 1e-8);
+        EXPECT_LE(shapes->claim.distance, reach + 1e-8);
         Direction Y;
         for (unsigned int i = 0; i < shapes->nodes.size(); ++i)
           Y += shapes->values[i] * immersed.node_positions()[shapes->nodes[i]];
-        EXPECT_LT((Y - X).norm(), 1e-9 * (1 + std::pow(shapes->distance, 6)));
+        EXPECT_LT((Y - X).norm(), 1e-9 * (1 + std::pow(shapes->claim.distance, 6)));
       };
       check(Point(0, 0, 0.1), 0, true);
       check(Point(0.1, -0.2, 1.3), 0, true);

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,13 +26,34 @@ namespace softcell
     ShapeTable shapes;
   };
 
+  /// With what right a cell answers for a point. A point on a face lies in several cells, whose
+  /// gradients differ; which of them counts must not depend on what cells a rank has.
+  struct Claim
+  {
+    double distance   = std::numeric_limits<double>::infinity(); // of the point; 0 inside. Units: m
+    double precedence = 0;                                       // among cells equally near
+
+    bool counts_before(const Claim &other, const double round_off) const
+    {
+      return distance < other.distance - round_off ||
+             (distance <= other.distance + round_off && precedence > other.precedence);
+    }
+  };
+
+  /// How far a cell's centre lies along a direction in which no two neighbours of a uniform grid
+  /// are level.
+  inline double precedence_of(const Point &centre)
+  {
+    return centre[0] + 0.7548776662 * centre[1] + 0.569840291 * centre[2];
+  }
+
   /// Shape functions at one point: u(X) = sum_i values[i] u_{nodes[i]}.
   struct PointShapes
   {
     std::vector<unsigned int> nodes; // local node numbers
     std::vector<double> values;      // (n_nodes)
     std::vector<double> gradients;   // (3, n_nodes). Units: 1/m
-    double distance = 0; // of the point from the cell that was found; 0 inside. Units: m
+    Claim claim;                     // of the cell that was found
   };
 
   /// A cell to draw. The corners are in VTK's order; `nodes` are the same corners (and, at degree 2
@@ -137,7 +159,7 @@ namespace softcell
     virtual std::optional<std::vector<unsigned int>> nodes_on(const Region &region) const = 0;
 
     /// The shapes at X from this rank's cells; beyond them, those of the nearest cell not farther
-    /// than `reach`, extended. Nothing if there is none.
+    /// than `reach`, extended. Of several equally near the claim decides. Nothing if there is none.
     virtual std::optional<PointShapes> shapes_at(const Point &X, double reach) const = 0;
 
     /// Box around this rank's cells.

@@ -71,7 +71,7 @@ namespace softcell
   /// The displacement at points whose cells may belong to any rank.
   ///
   /// Each rank asks for points of its own, as many as it likes; those ranks answer whose box holds
-  /// the point. The nearest cell counts, that of the lowest rank if several are equally near.
+  /// the point. The cell with the strongest claim counts, the same on any number of ranks.
   /// Takes about 300 bytes a point while it works, so ask for millions of points in pieces.
   /// Collective.
   /// @param u     with ghost values.
