@@ -17,7 +17,6 @@
 #include <fstream>
 #include <map>
 #include <numeric>
-#include <regex>
 #include <sstream>
 
 namespace softcell
@@ -102,8 +101,9 @@ namespace softcell
               sections.push_back(child.first);
           const std::string near = nearest_word(section.back(), sections);
           throw BadInput(location + ": there is no section '" + join(section, "/") + "'" +
-                         (near.empty() ? "; there are: " + join(sections, ", ") + "."
-                                       : "; did you mean '" + near + "'?"));
+                         (!near.empty()      ? "; did you mean '" + near + "'?"
+                          : sections.empty() ? "; is an 'end' missing before it?"
+                                             : "; there are: " + join(sections, ", ") + "."));
         }
       }
       const Path section(path.begin(), path.end() - 1);
@@ -111,6 +111,17 @@ namespace softcell
         location + ": there is no entry '" + path.back() + "' " +
         (section.empty() ? "outside the sections" : "in section " + join(section, "/")) +
         suggestion(tree, path));
+    }
+
+    /// Takes the line's first word away and returns it in lower case.
+    std::string take_word(std::string &line)
+    {
+      const auto length = std::min(line.find_first_of(" \t"), line.size());
+      std::string word  = line.substr(0, length);
+      std::transform(word.begin(), word.end(), word.begin(),
+                     [](const unsigned char c) { return std::tolower(c); });
+      line = dealii::Utilities::trim(line.substr(length));
+      return word;
     }
 
     /// The whole file, or BadInput.
@@ -161,9 +172,6 @@ namespace softcell
     Path section;
     std::vector<std::string> opened; // where each section of the path began
     std::string line, joined;
-    static const std::regex set("set\\s+([^=]+)=(.*)", std::regex::icase),
-      subsection("subsection\\s+(.+)", std::regex::icase), end("end", std::regex::icase),
-      include("include\\b.*", std::regex::icase);
     for (unsigned int number = 1; std::getline(in, line); ++number)
     {
       if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
@@ -177,24 +185,27 @@ namespace softcell
       line = joined + line;
       joined.clear();
       const std::string location = file_ + ":" + std::to_string(number);
-      std::smatch match;
       if (line.empty())
         continue;
-      else if (std::regex_match(line, match, set) && !trim(match[1]).empty())
+      std::string rest       = line;
+      const std::string word = take_word(rest);
+      const auto equals      = rest.find('=');
+      const bool is_end      = word == "end" && rest.empty();
+      if (word == "set" && equals != std::string::npos && !trim(rest.substr(0, equals)).empty())
       {
         Path path = section;
-        path.push_back(trim(match[1]));
-        items_.push_back({path, trim(match[2]), location, false});
+        path.push_back(trim(rest.substr(0, equals)));
+        items_.push_back({path, trim(rest.substr(equals + 1)), location, false});
       }
-      else if (std::regex_match(line, match, subsection))
+      else if (word == "subsection" && !rest.empty())
       {
-        section.push_back(trim(match[1]));
+        section.push_back(rest);
         opened.push_back(location);
         Path path = section;
         path.emplace_back();
         items_.push_back({path, "", location, false});
       }
-      else if (std::regex_match(line, end) && !section.empty())
+      else if (is_end && !section.empty())
       {
         section.pop_back();
         opened.pop_back();
@@ -202,9 +213,8 @@ namespace softcell
       else
         throw BadInput(
           location + ": " +
-          (std::regex_match(line, end)
-             ? "this 'end' closes nothing; remove it or add the 'subsection' before it."
-           : std::regex_match(line, include)
+          (is_end ? "this 'end' closes nothing; remove it or add the 'subsection' before it."
+           : word == "include"
              ? "'include' is not supported; put the entries into this file."
              : "'" + line.substr(0, 60) +
                  "' is not understood; a line is 'subsection NAME', 'set NAME = VALUE' or 'end'."));

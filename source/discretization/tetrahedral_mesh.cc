@@ -179,6 +179,38 @@ namespace softcell
       return refine(domain, size);
     }
 
+    /// Two cells with a face in common must lie on its two sides.
+    /// @throws BadInput
+    void check_sides(const dealii::Triangulation<3> &triangulation, const std::string &complaint)
+    {
+      unsigned int n_overlaps = 0;
+      Point first;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+        {
+          const auto face = cell->face(f);
+          if (face->at_boundary() || !(cell < cell->neighbor(f)))
+            continue;
+          const Direction normal = face->n_vertices() == 3
+                                     ? dealii::cross_product_3d(face->vertex(1) - face->vertex(0),
+                                                                face->vertex(2) - face->vertex(0))
+                                     : dealii::cross_product_3d(face->vertex(3) - face->vertex(0),
+                                                                face->vertex(2) - face->vertex(1));
+          const double here      = normal * (cell->center() - face->center()),
+                       there     = normal * (cell->neighbor(f)->center() - face->center());
+          if (here * there > 0 && n_overlaps++ == 0)
+            first = face->center();
+        }
+      if (n_overlaps == 0)
+        return;
+      std::ostringstream text;
+      text << complaint << "is tangled: " << n_overlaps << " pairs of its "
+           << triangulation.n_active_cells()
+           << " cells lie on the same side of the face that they share, the first at (" << first
+           << "), in the file's unit; move the nodes there or mesh the body anew.";
+      throw BadInput(text.str());
+    }
+
     std::string first_line(const std::exception &error)
     {
       std::ostringstream text;
@@ -255,6 +287,7 @@ namespace softcell
             mesh.face_patches.push_back(face->boundary_id());
           }
       }
+      check_sides(triangulation, complaint);
       if (mesh.corners_per_cell == 4)
         put_in_order(mesh);
       return mesh;

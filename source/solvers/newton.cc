@@ -224,12 +224,12 @@ namespace softcell
                       "that act on the body, supports included; or where it falls no further "
                       "because rounding hides the energy that is left to gain, as it may on badly "
                       "graded meshes. Units: 1",
-                      dealii::Patterns::Double(0.));
+                      dealii::Patterns::Double(0., 0.1));
     prm.add_parameter("Update tolerance", update_tolerance,
                       "A step has also converged when a full Newton step changes the displacement "
                       "by no more than this, relatively, whatever the residual; 0 asks for the "
                       "residual alone. Units: 1",
-                      dealii::Patterns::Double(0.));
+                      dealii::Patterns::Double(0., 0.1));
     prm.add_parameter("Newton iterations", max_iterations,
                       "Iterations after which a load step has failed.",
                       dealii::Patterns::Integer(1));

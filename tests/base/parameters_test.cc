@@ -176,6 +176,11 @@ TEST(Parameters, BrokenText)
             ":1: this 'end' closes nothing; remove it or add the 'subsection' before it.");
   EXPECT_NE(complaint("\ninclude other.prm\n").find(":2: 'include' is not supported"),
             std::string::npos);
+  EXPECT_EQ(complaint("subsection Loads\nsubsection Solver\nend\nend"),
+            ":2: there is no section 'Loads/Solver'; is an 'end' missing before it?");
+  EXPECT_EQ(complaint("subsection Material\n set Colour = " + std::string(100000, 'x') + "\nend")
+              .find(":2: there is no entry 'Colour'"),
+            0u);
   EXPECT_NE(complaint("set   = 3\n").find(":1: 'set   = 3' is not understood"), std::string::npos);
   EXPECT_NE(complaint("Young = 3\n").find(":1: 'Young = 3' is not understood"), std::string::npos);
   EXPECT_NE(complaint(std::string("set\0x", 5)).find("bytes that are no text"), std::string::npos);

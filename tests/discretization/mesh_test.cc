@@ -98,4 +98,41 @@ namespace softcell
                 "holds tetrahedra; set Discretization/Method")),
               std::string::npos);
   }
+
+  // Two cells on either side of a face, the second numbered backwards, and with its far corners
+  // moved to the first one's side.
+  TEST(Mesh, IsRefusedWhereCellsOverlap)
+  {
+    const auto file = [](const std::string &name, const std::string &nodes,
+                         const std::string &elements) {
+      const std::string path =
+        testing::TempDir() + "softcell_" + name +
+        std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".msh";
+      std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
+                          << nodes << "$EndNodes\n$Elements\n2\n"
+                          << elements << "$EndElements\n";
+      return path;
+    };
+    for (const double z : {-1., 0.5})
+    {
+      const std::string height = std::to_string(z) + '\n';
+      Wish tetrahedra{"box", CellShape::tetrahedra, {2}};
+      tetrahedra.parameters.file =
+        file("pair", "5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 " + height,
+             "1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n");
+      Wish hexahedra{"box", CellShape::hexahedra, {2}};
+      hexahedra.parameters.file =
+        file("bricks",
+             "12\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 0 0 " +
+               height + "10 1 0 " + height + "11 1 1 " + height + "12 0 1 " + height,
+             "1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 1 1 1 2 3 4 9 10 11 12\n");
+      for (Wish *wish : {&tetrahedra, &hexahedra})
+      {
+        const std::string complaint = wish->complaint();
+        EXPECT_EQ(complaint.find("1 pairs of its 2 cells") != std::string::npos, z > 0)
+          << complaint;
+        EXPECT_EQ(complaint.empty(), z < 0) << complaint;
+      }
+    }
+  }
 } // namespace softcell

@@ -39,6 +39,11 @@ def write_files(folder):
     (folder / "junk.ply").write_bytes(bytes(range(256)) * 4)
     (folder / "surface.xyz").write_text("0 0 0\n")
     (folder / "empty.off").write_text("")
+    nodes = ["0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 0.5"]
+    (folder / "tangled.msh").write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n"
+        + "".join(f"{i} {node}\n" for i, node in enumerate(nodes, 1))
+        + "$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n$EndElements\n")
     header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\nencoding: raw\n\n").encode()
     (folder / "image.nrrd").write_bytes(header + b"\1" * 512)
     (folder / "two.nrrd").write_bytes(header + b"\1" * 256 + b"\2" * 256)
@@ -61,6 +66,13 @@ BAD_INPUTS = [
      ["mistake.prm:", "Lode steps", "Load steps"]),
     ("unknown section", [], "@BAR@subsection Solvers\n  set Load steps = 3\nend\n", ["Solvers", "'Solver'"]),
     ("open section", [], "@BAR@subsection Solver\n", ["mistake.prm:", "Solver", "end"]),
+    ("section in a section", [], "@BAR@subsection Solver\n  subsection Output\n  end\nend\n",
+     ["mistake.prm:", "Solver/Output", "'end' missing"]),
+    ("line of great length", [], "@BAR@subsection Output\n  set Directory " + 100000 * "x" + "\nend\n",
+     ["mistake.prm:", "not understood"]),
+    ("tolerance that every guess meets", ["Solver/Residual tolerance = 1"], None,
+     ["Residual tolerance", "from 0 to 0.1"]),
+    ("update that is always small", ["Solver/Update tolerance = 2"], None, ["Update tolerance", "from 0 to 0.1"]),
     ("line without meaning", [], "@BAR@Cells = 4\n", ["mistake.prm:", "Cells = 4"]),
     ("value of another kind", ["Material/Density = heavy"], None, ["Material/Density", "heavy", "number"]),
     ("value out of range", ["Discretization/Cut levels = -1"], None, ["Discretization/Cut levels", "-1"]),
@@ -179,6 +191,8 @@ BAD_INPUTS = [
      ["Coarse grids", "some.msh"]),
     ("cells of a mesh that is there", ["Discretization/Mesh file = some.msh", "Study/Cells = 4, 8"], None,
      ["Study/Cells", "some.msh"]),
+    ("tangled mesh", ["Discretization/Method = tetrahedra", "Discretization/Mesh file = tangled.msh"], None,
+     ["tangled.msh", "1 pairs", "same side"]),
     ("refinement of a mesh", ["Discretization/Method = tetrahedra", "Discretization/Refinement steps = 1"], None,
      ["Refinement steps = 1", "tetrahedra", "background grids"]),
     ("refinement of a higher degree", ["Discretization/Degree = 2", "Discretization/Refinement steps = 1"], None,
