@@ -7,8 +7,35 @@
 #include <softcell/discretization/fitted.h>
 #include <softcell/discretization/immersed.h>
 
+#include <sstream>
+
 namespace softcell
 {
+  namespace
+  {
+    /// Says so if a good part of the body is in no cell.
+    void check_volume(const Discretization &discretization,
+                      const Body &body,
+                      std::vector<std::string> &remarks)
+    {
+      PatchStorage storage;
+      double found = 0;
+      for (unsigned int i = 0; i < discretization.n_patches(); ++i)
+        for (const double weight : discretization.patch(i, storage).weights)
+          found += weight;
+      found                 = dealii::Utilities::MPI::sum(found, discretization.communicator());
+      const double expected = body.volume();
+      if (found > 0.95 * expected)
+        return;
+      std::ostringstream text;
+      text.precision(4);
+      text << "The cells hold only " << found << " m^3 of the body's " << expected
+           << " m^3; more Discretization/Cells, more Cut levels or a smaller Smallest volume "
+              "fraction bring them together.";
+      remarks.push_back(text.str());
+    }
+  } // namespace
+
   void DiscretizationParameters::add_parameters(dealii::ParameterHandler &prm)
   {
     std::string names;
@@ -80,7 +107,10 @@ namespace softcell
                   parameters.method == "tetrahedra" ? CellShape::tetrahedra : CellShape::hexahedra,
                   parameters.grid.cells, parameters.mesh, geometry, body, remarks),
         parameters.degree, body);
-    return std::make_unique<Immersed>(parameters.method, parameters.degree, parameters.grid,
-                                      parameters.cut, body, communicator, refinement);
+    auto immersed =
+      std::make_unique<Immersed>(parameters.method, parameters.degree, parameters.grid,
+                                 parameters.cut, body, communicator, refinement);
+    check_volume(*immersed, body, remarks);
+    return immersed;
   }
 } // namespace softcell

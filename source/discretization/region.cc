@@ -3,6 +3,7 @@
 
 #include <softcell/discretization/region.h>
 
+#include <softcell/base/exceptions.h>
 #include <softcell/base/formula.h>
 
 #include <array>
@@ -33,6 +34,10 @@ namespace softcell
            "Regions/" + name_ + " = '" + condition + "' cannot be read as a condition",
            "give 'patch K' or an expression of x, y, z, nx, ny, nz such as "
                 "'z < 0.01 && nz < 0'");
+    if (condition_->expression.GetUsedVar().empty() && condition_->expression.Eval() != 1)
+      throw BadInput("Regions/" + name_ + " = '" + condition +
+                     "' is the same everywhere; compare, as in 'z > 0.1', or write 1 for the whole "
+                     "surface.");
   }
 
   Region::~Region()                  = default;

@@ -144,12 +144,32 @@ namespace softcell
     prm.add_parameter("Size", size, "Units: m. Box: along x, y, z.", List(Double(0), 3, 3));
   }
 
+  namespace
+  {
+    /// Says so if a file in another unit than metres seems to lack its scale.
+    void check_unit(const GeometryParameters &parameters, const Body &body, Remarks &remarks)
+    {
+      const auto [lower, upper] = body.bounding_box().get_boundary_points();
+      const double length       = lower.distance(upper);
+      if (parameters.scale != 1 || (length > 1e-4 && length < 10))
+        return;
+      remarks.push_back(parameters.file + ": the body measures " + as_text(length) +
+                        " m across; if the file has another unit than metres, say so by "
+                        "Geometry/Scale, such as 0.001 for millimetres.");
+    }
+  } // namespace
+
   std::unique_ptr<Body> make_body(const GeometryParameters &parameters,
                                   std::vector<std::string> &remarks)
   {
     for (const BodyType &type : body_types)
       if (type.name == parameters.type)
-        return type.make(parameters, remarks);
+      {
+        auto body = type.make(parameters, remarks);
+        if (type.name == "surface" || type.name == "image")
+          check_unit(parameters, *body, remarks);
+        return body;
+      }
     throw BadInput("Geometry/Type = " + parameters.type + " is none of " + names_of_types(", ") +
                    ".");
   }

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace softcell
@@ -88,8 +89,8 @@ namespace softcell
               descriptions.begin(),
               descriptions.end(),
               [](const LoadDescription &load) { return load.kind == Kind::displacement; })),
-            held_(surface.bounding_box()),
-            loads_{{}, ImposedDisplacement(discretization), "", nullptr}
+            held_(discretization, surface.bounding_box()),
+            loads_{{}, ImposedDisplacement(discretization), "", nullptr, {}}
       {
       }
 
@@ -145,6 +146,8 @@ namespace softcell
         Expression value(load.value, is_traction ? 3 : 1, load.place);
         auto patches = surface_patches(region);
         check_numbers(value, patches);
+        if (load.kind != Kind::springs)
+          loaded_points_.emplace_back(load.place, points_of(patches));
         if (is_traction)
           add_force<Traction>(std::move(patches), std::move(value), load.region);
         else if (load.kind == Kind::pressure)
@@ -160,8 +163,9 @@ namespace softcell
       {
         for (const unsigned int i : loads_.imposed.unknowns())
           if (i < discretization_.partitioner()->locally_owned_size())
-            held_.hold(discretization_.node_positions()[i / 3], i % 3);
-        loads_.free_motions = held_.free_motions(discretization_.communicator());
+            held_.hold(i / 3, discretization_.node_positions()[i / 3], i % 3);
+        loads_.free_motions = held_.free_motions();
+        warn_of_idle_loads();
         return std::move(loads_);
       }
 
@@ -196,6 +200,7 @@ namespace softcell
               const auto patches = discretization_.surface_patches(region);
               check_agreement(load, patches, imposed_displacement(load, points_of(patches)));
             }
+            note_supported(discretization_.surface_patches(region), displacement);
             loads_.imposed.add(load.region, *nodes, std::move(displacement));
             return;
           }
@@ -210,6 +215,7 @@ namespace softcell
         check_numbers(displacement, patches);
         if (!is_nodal() && n_displacements_ > 1) // regions that meet share the nodes between them
           check_agreement(load, patches, displacement);
+        note_supported(patches, displacement);
         if (how == "penalty" || how == "automatic")
         {
           Expression stiffness = penalty(patches);
@@ -390,7 +396,28 @@ namespace softcell
           for (const Point &X : patch.points)
             for (unsigned int c = 0; c < 3; ++c)
               if (!displacement.is_free(c) && stiffness.value(X, 1)[0] > 0)
-                held_.hold(X, c);
+                held_.hold(patch.nodes[0], X, c);
+      }
+
+      void note_supported(const std::vector<SurfacePatch> &patches, const Expression &displacement)
+      {
+        if (displacement.is_free(0) || displacement.is_free(1) || displacement.is_free(2))
+          return;
+        for (const Point &X : points_of(patches))
+          supported_points_.insert(coordinates(X));
+      }
+
+      void warn_of_idle_loads()
+      {
+        for (const auto &[place, points] : loaded_points_)
+        {
+          const auto n_moving = std::count_if(points.begin(), points.end(), [&](const Point &X) {
+            return supported_points_.count(coordinates(X)) == 0;
+          });
+          if (dealii::Utilities::MPI::sum(n_moving, discretization_.communicator()) == 0)
+            loads_.warnings.push_back(place + " deforms nothing: all of its region is held by a "
+                                              "clamp or a displacement; mend the region.");
+        }
       }
 
       /// Where a displacement imposed by forces puts a point of the surface.
@@ -406,8 +433,11 @@ namespace softcell
       const std::vector<Material> &materials_;
       const DisplacementField *const reference_; // null if there is none
       const unsigned int n_displacements_;       // of the loads
-      RigidModes held_;
+      HeldParts held_;
       std::map<std::array<double, 3>, HeldPoint> held_points_;
+      std::set<std::array<double, 3>> supported_points_; // held in all components
+      std::vector<std::pair<std::string, std::vector<Point>>>
+        loaded_points_; // with the load's place
       Loads loads_;
     };
   } // namespace
@@ -425,6 +455,15 @@ namespace softcell
     builder.add_manufactured_body_force();
     for (const LoadDescription &load : descriptions)
       builder.add(load, find_region(load.region, regions));
-    return builder.finish();
+    Loads loads = builder.finish();
+    const bool is_at_rest =
+      std::all_of(descriptions.begin(), descriptions.end(), [](const LoadDescription &load) {
+        return load.kind == Kind::springs || load.value == "0, 0, 0";
+      });
+    if (is_at_rest && parameters.gravity.norm() == 0 && parameters.manufactured == "none")
+      loads.warnings.emplace_back(
+        "Nothing acts on the body, which stays at rest; give it Gravity, a "
+        "traction, a pressure or a displacement in Loads.");
+    return loads;
   }
 } // namespace softcell

@@ -3,11 +3,14 @@
 
 #include <softcell/loads/rigid_modes.h>
 
+#include <softcell/discretization/connected_parts.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace softcell
@@ -86,7 +89,7 @@ namespace softcell
         gram_[6 * i + j] += h[i] * h[j];
   }
 
-  std::string RigidModes::free_motions(const MPI_Comm communicator) const
+  std::string RigidModes::free_motions(const MPI_Comm communicator, const std::string &what) const
   {
     std::array<double, 36> all;
     dealii::Utilities::MPI::sum(View<const double>(gram_), communicator, View<double>(all));
@@ -105,9 +108,61 @@ namespace softcell
     const std::string about = null_space(rotation, tolerance);
     if (along.empty() && about.empty())
       return "";
-    return "the supports leave the body free to " + (along.empty() ? "" : "move along " + along) +
+    return "the supports leave " + what + " free to " +
+           (along.empty() ? "" : "move along " + along) +
            (along.empty() || about.empty() ? "" : " and to ") +
            (about.empty() ? "" : "turn about " + about) +
            "; add a clamp, displacement or springs in Loads.";
+  }
+
+  HeldParts::HeldParts(const Discretization &discretization, const Box &body)
+      : discretization_(discretization), body_(body), parts_(connected_parts(discretization))
+  {
+  }
+
+  void HeldParts::hold(const unsigned int node, const Point &X, const unsigned int component)
+  {
+    held_.try_emplace(parts_[node], body_).first->second.hold(X, component);
+  }
+
+  std::string HeldParts::free_motions() const
+  {
+    const MPI_Comm communicator = discretization_.communicator();
+    const std::set<unsigned int> own(parts_.begin(),
+                                     parts_.begin() + discretization_.n_owned_nodes());
+    std::set<unsigned int> all;
+    for (const auto &parts : dealii::Utilities::MPI::all_gather(
+           communicator, std::vector<unsigned int>(own.begin(), own.end())))
+      all.insert(parts.begin(), parts.end());
+    for (const unsigned int part : all)
+    {
+      const auto held          = held_.find(part);
+      const RigidModes modes   = held == held_.end() ? RigidModes(body_) : held->second;
+      const std::string motion = modes.free_motions(communicator, name_of(part, all.size()));
+      if (!motion.empty())
+        return motion;
+    }
+    return "";
+  }
+
+  std::string HeldParts::name_of(const unsigned int part, const std::size_t n_parts) const
+  {
+    if (n_parts == 1)
+      return "the body";
+    Point sum;
+    double n = 0;
+    for (unsigned int node = 0; node < discretization_.n_owned_nodes(); ++node)
+      if (parts_[node] == part)
+      {
+        sum += discretization_.node_positions()[node];
+        ++n;
+      }
+    const MPI_Comm communicator = discretization_.communicator();
+    const Direction total       = dealii::Utilities::MPI::sum(Direction(sum), communicator);
+    std::ostringstream name;
+    name.precision(3);
+    name << "one of the body's " << n_parts << " separate parts, around ("
+         << total / dealii::Utilities::MPI::sum(n, communicator) << "),";
+    return name.str();
   }
 } // namespace softcell

@@ -169,23 +169,29 @@ namespace softcell
     console_.say("  " + std::to_string(size_.cells) + " cells, " + std::to_string(size_.cut_cells) +
                  " of them cut, " + std::to_string(size_.unknowns) + " unknowns, " +
                  std::to_string(size_.integration_points) + " integration points");
-    for (const std::string &remark : remarks)
-      if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end())
-      {
-        console_.say("  " + remark);
-        remarks_.push_back(remark);
-      }
+    warn(remarks);
 
     loads_ = std::make_unique<Loads>(make_loads(parameters_.loads, loads, regions_,
                                                 *discretization_, body_.surface(), materials_,
                                                 reference_ ? &*reference_ : nullptr));
     if (!loads_->free_motions.empty())
       throw BadInput("Loads: " + loads_->free_motions);
+    warn(loads_->warnings);
     displacement_ = discretization_->make_vector();
     check_probes();
     model_ =
       std::make_unique<Model>(*discretization_, materials_, parameters_.discretization.projection,
                               *loads_, parameters_.linear_solver, timers_);
+  }
+
+  void Simulation::warn(const std::vector<std::string> &remarks)
+  {
+    for (const std::string &remark : remarks)
+      if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end())
+      {
+        console_.warn(remark);
+        remarks_.push_back(remark);
+      }
   }
 
   void Simulation::check_probes() const

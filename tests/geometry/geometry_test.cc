@@ -4,6 +4,7 @@
 
 #include <softcell/base/exceptions.h>
 #include <softcell/geometry/geometry.h>
+#include <softcell/geometry/shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -103,4 +104,20 @@ TEST(Geometry, AsksForWhatIsMissing)
   parameters.type = "cone";
   std::vector<std::string> remarks;
   EXPECT_THROW(make_body(parameters, remarks), BadInput);
+}
+
+TEST(Geometry, RemarksOnAUnitThatSeemsWrong)
+{
+  const TemporaryFolder folder;
+  const auto n_remarks = [&folder](const double edge, const std::string &scale) {
+    const auto box         = make_box(Point(edge, edge, edge));
+    const std::string file = folder.write("unit.off", as_off(box->surface()));
+    std::vector<std::string> remarks;
+    make_body(parse("set Type = surface\n set File = " + file + "\n" + scale), remarks);
+    return remarks.size();
+  };
+  EXPECT_EQ(n_remarks(120, ""), 1u);
+  EXPECT_EQ(n_remarks(120, "set Scale = 0.001\n"), 0u);
+  EXPECT_EQ(n_remarks(0.1, ""), 0u);
+  EXPECT_EQ(n_remarks(1e-5, ""), 1u);
 }

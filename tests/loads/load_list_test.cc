@@ -136,6 +136,29 @@ namespace softcell
                        "free to move along x and y and to turn about z"));
   }
 
+  TEST(LoadList, WarnsOfLoadsThatDoNothing)
+  {
+    Problem problem;
+    problem.regions.emplace_back("low", "z < 0.3");
+    for (const bool is_fitted : {true, false})
+    {
+      const BoxOfCells body = unit_cube(is_fitted);
+      const auto warning    = [&](const Entries &entries) {
+        const std::vector<std::string> warnings = problem.loads(body, entries).warnings;
+        return warnings.empty() ? "" : warnings[0];
+      };
+      EXPECT_TRUE(says(warning({{"base", "clamp"}}), "Nothing acts on the body"));
+      EXPECT_EQ(warning({{"base", "clamp"}, {"top", "traction 0, 0, 1"}}), "");
+      EXPECT_EQ(warning({{"base", "clamp"}, {"top", "displacement 0, 0, 0.1"}}), "");
+      EXPECT_TRUE(says(warning({{"base", "clamp; traction 0, 0, 1"}}),
+                       "Loads/base = 'traction 0, 0, 1' deforms nothing"));
+      EXPECT_EQ(warning({{"base", "clamp"}, {"low", "pressure 5"}}), ""); // reaches beyond it
+      EXPECT_EQ(warning({{"base", "displacement free, 0, 0; traction 1, 0, 0"}}), "");
+    }
+    problem.parameters.gravity = Direction({0, 0, -10});
+    EXPECT_TRUE(problem.loads(unit_cube(true), {{"base", "clamp"}}).warnings.empty());
+  }
+
   TEST(LoadList, RefusesToHoldAPointInTwoPlaces)
   {
     Problem problem;

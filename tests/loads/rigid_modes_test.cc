@@ -20,7 +20,7 @@ namespace softcell
       for (unsigned int k = rank; k < points.size(); k += n)
         for (unsigned int c = 0; c < 3; ++c)
           modes.hold(points[k], c);
-      return modes.free_motions(MPI_COMM_WORLD);
+      return modes.free_motions(MPI_COMM_WORLD, "the body");
     }
 
     bool says(const std::string &text, const std::string &part)
@@ -46,13 +46,13 @@ namespace softcell
     RigidModes table(Box({Point(1, 1, 1), Point(2, 2, 4)}));
     for (const Point &X : face)
       table.hold(X, 2);
-    EXPECT_TRUE(
-      says(table.free_motions(MPI_COMM_SELF), "free to move along x and y and to turn about z;"));
+    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF, "the body"),
+                     "free to move along x and y and to turn about z;"));
     table.hold(face[0], 0);
     table.hold(face[0], 1);
-    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF), "free to turn about z;"));
+    EXPECT_TRUE(says(table.free_motions(MPI_COMM_SELF, "the body"), "free to turn about z;"));
     table.hold(face[1], 1);
-    EXPECT_EQ(table.free_motions(MPI_COMM_SELF), "");
+    EXPECT_EQ(table.free_motions(MPI_COMM_SELF, "the body"), "");
   }
 
   TEST(RigidModes, NamesObliqueAxes)

@@ -40,6 +40,7 @@ namespace softcell
     ImposedDisplacement imposed;
     std::string free_motions; // RigidModes::free_motions() of all supports; empty if none is free
     std::unique_ptr<const ManufacturedSolution> exact; // if there is one
+    std::vector<std::string> warnings;                 // a sentence on each load that does nothing
   };
 
   /// Builds the loads on a discretization of a body. Collective.

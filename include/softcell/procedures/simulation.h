@@ -118,6 +118,8 @@ namespace softcell
 
     /// @throws BadInput if a probe is farther from the body than a hundredth of its diagonal.
     void check_probes() const;
+    /// Says and keeps what has not been said yet.
+    void warn(const std::vector<std::string> &remarks);
 
     /// Takes the grid's refinement from a checkpoint, before the grid is built. @throws BadInput
     void take_refinement(const std::string &checkpoint);
