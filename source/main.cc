@@ -59,13 +59,13 @@ int main(int argc, char **argv)
   catch (const softcell::BadInput &error)
   {
     if (rank == 0)
-      std::cerr << "softcell: " << error.what() << std::endl;
+      std::cerr << "softcell: " << softcell::printable(error.what()) << std::endl;
     return 1;
   }
   catch (const softcell::NotConverged &error)
   {
     if (rank == 0)
-      std::cerr << "softcell: " << error.what() << std::endl;
+      std::cerr << "softcell: " << softcell::printable(error.what()) << std::endl;
     return 2;
   }
   catch (const std::bad_alloc &)

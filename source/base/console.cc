@@ -27,6 +27,28 @@ namespace softcell
     }
   } // namespace
 
+  std::string printable(const std::string &text)
+  {
+    constexpr std::size_t longest = 1000, end = 300;
+    if (text.size() > longest)
+      return printable(text.substr(0, longest - end)) + " ... " +
+             printable(text.substr(text.size() - end));
+    std::string result;
+    for (std::size_t i = 0; i < text.size();)
+    {
+      const unsigned char c = text[i];
+      std::size_t length    = c < 0xc2 ? 1 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : 4;
+      const std::string one = text.substr(i, length);
+      const bool is_whole   = one.size() == length &&
+                            std::all_of(one.begin() + 1, one.end(),
+                                        [](const unsigned char next) { return next >> 6 == 2; });
+      const bool is_shown = c < 0x80 ? c >= 32 && c != 127 : c >= 0xc2 && c < 0xf5 && is_whole;
+      result += is_shown ? one : "?";
+      i += is_shown ? length : 1;
+    }
+    return result;
+  }
+
   Console::Console(MPI_Comm communicator, const bool quiet)
   {
     int rank = 0;
@@ -61,7 +83,7 @@ namespace softcell
   {
     erase_progress();
     if (is_root_)
-      (out_ != nullptr ? *out_ : std::cerr) << "warning: " << line << std::endl;
+      (out_ != nullptr ? *out_ : std::cerr) << "warning: " << printable(line) << std::endl;
   }
 
   void Console::progress(const std::string &line)

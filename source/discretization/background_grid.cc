@@ -17,17 +17,6 @@ namespace softcell
 {
   namespace
   {
-    std::string grid_entry(const GridParameters &parameters)
-    {
-      std::ostringstream text;
-      if (parameters.cell_size > 0)
-        text << "Discretization/Cell size = " << parameters.cell_size << " m";
-      else
-        for (unsigned int d = 0; d < parameters.cells.size(); ++d)
-          text << (d == 0 ? "Discretization/Cells = " : ", ") << parameters.cells[d];
-      return text.str();
-    }
-
     /// 20 bits an axis number the finest cells.
     void check_countable(const std::array<double, 3> &cells,
                          const GridParameters &parameters,
@@ -115,6 +104,19 @@ namespace softcell
     return key;
   }
 
+  std::string grid_entry(const GridParameters &parameters)
+  {
+    std::ostringstream text;
+    if (parameters.cell_size > 0)
+      text << "Discretization/Cell size = " << parameters.cell_size << " m";
+    else
+      for (unsigned int d = 0; d < parameters.cells.size(); ++d)
+        text << (d == 0 ? "Discretization/Cells = " : ", ") << parameters.cells[d];
+    if (parameters.scale != 1)
+      text << " with Grid scale = " << parameters.scale;
+    return text.str();
+  }
+
   BackgroundGrid::BackgroundGrid(const GridParameters &parameters,
                                  const Body &body,
                                  const double cut_work,
@@ -140,8 +142,9 @@ namespace softcell
           cells_.push_back({where, how, cell->level(), cell->index()});
       }
     if (dealii::Utilities::MPI::sum(cells_.size(), communicator) == 0)
-      throw BadInput(grid_entry(parameters) + " makes a grid too coarse to see the body; give more "
-                                              "cells or a lower 'Smallest volume fraction'.");
+      throw BadInput(grid_entry(parameters) +
+                     " makes a grid too coarse to see the body; give "
+                     "smaller cells or a lower 'Smallest volume fraction'.");
   }
 
   BackgroundGrid::~BackgroundGrid() = default;

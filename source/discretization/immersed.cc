@@ -53,9 +53,10 @@ namespace softcell
     if (volume < 0.5 * body.volume())
     {
       std::ostringstream text;
-      text << "The grid of section Discretization is too coarse to see the body: it sees " << volume
-           << " of " << body.volume()
-           << " m^3; give more 'Cells' or 'Cut levels', or a lower 'Smallest volume fraction'.";
+      text << grid_entry(grid_parameters) << " makes a grid too coarse to see the body: it sees "
+           << volume << " of " << body.volume()
+           << " m^3; give smaller cells, more 'Cut levels' or a lower 'Smallest "
+           << "volume fraction'.";
       throw BadInput(text.str());
     }
 

@@ -211,6 +211,30 @@ namespace softcell
       throw BadInput(text.str());
     }
 
+    /// The file must begin as a Gmsh file does, have numbers for nodes, and elements up to their
+    /// end.
+    /// @throws BadInput
+    void check_text(std::istream &input, const std::string &complaint)
+    {
+      const std::string text((std::istreambuf_iterator<char>(input)),
+                             std::istreambuf_iterator<char>());
+      input.clear();
+      input.seekg(0);
+      const auto begin = text.find_first_not_of(" \t\r\n");
+      if (begin == std::string::npos)
+        throw BadInput(complaint + "is empty; export it again.");
+      if (text[begin] != '$')
+        throw BadInput(complaint + "is no Gmsh file: it does not begin with '$'.");
+      if (text.find("$EndElements") == std::string::npos &&
+          text.find("$ENDELM") == std::string::npos)
+        throw BadInput(complaint + "is cut short: its elements have no end; export it again.");
+      const auto nodes = std::min(text.find("$Nodes"), text.find("$NOD"));
+      for (const char *const word : {"nan", "NaN", "inf"})
+        if (nodes != std::string::npos && text.find(word, nodes) < text.find('$', nodes + 1))
+          throw BadInput(complaint + "has a node at " + word +
+                         ", which is no number; export it again.");
+    }
+
     std::string first_line(const std::exception &error)
     {
       std::ostringstream text;
@@ -255,6 +279,7 @@ namespace softcell
       std::ifstream input(file);
       if (!input)
         throw BadInput(complaint + "cannot be opened; check the path.");
+      check_text(input, complaint);
       dealii::Triangulation<3> triangulation;
       dealii::GridIn<3> reader(triangulation);
       try
@@ -263,9 +288,11 @@ namespace softcell
       }
       catch (const std::exception &error)
       {
-        throw BadInput(complaint +
-                       "cannot be read as a Gmsh mesh (MSH 1, 2 or 4, ASCII, straight cells): " +
-                       first_line(error));
+        throw BadInput(
+          complaint +
+          "cannot be read as a Gmsh mesh (MSH 1, 2 or 4, ASCII, straight cells), damaged "
+          "or of another kind: " +
+          first_line(error));
       }
 
       Mesh mesh;

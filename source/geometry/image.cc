@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 #include <zlib.h>
@@ -19,11 +20,12 @@ namespace softcell
 {
   namespace
   {
-    std::string read_bytes(const std::string &file)
+    std::string read_bytes(const std::string &file,
+                           const std::string &remedy = "check Geometry/File")
     {
       std::ifstream in(file, std::ios::binary);
       if (!in)
-        refuse_image(file, "it cannot be opened; check Geometry/File.");
+        refuse_image(file, "it cannot be opened; " + remedy + ".");
       std::ostringstream bytes;
       bytes << in.rdbuf();
       return bytes.str();
@@ -65,15 +67,20 @@ namespace softcell
       for (const double n : header.size)
       {
         if (!(n >= 1 && n <= 65536 && n == std::floor(n)))
-          refuse_image(file, "the header gives it " + std::to_string(n) +
-                               " voxels along one axis; mend the header.");
+        {
+          std::ostringstream text;
+          text << "the header gives it " << std::setprecision(10) << n
+               << " voxels along one axis, where 1 to 65536 can be; mend the header.";
+          refuse_image(file, text.str());
+        }
         n_bytes *= n;
       }
       std::string data_file = file;
       if (!header.data_file.empty())
       {
         data_file = std::filesystem::path(file).parent_path() / header.data_file;
-        content   = read_bytes(data_file);
+        content =
+          read_bytes(data_file, "the header of " + file + " says that the voxels are there");
       }
       const std::size_t start = std::min(header.data_start, content.size());
       content = header.compressed ? inflated(data_file, content, start) : content.substr(start);

@@ -391,6 +391,8 @@ namespace softcell
       std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
 
       std::error_code error;
+      if (std::filesystem::is_directory(file, error))
+        throw BadInput(file + ": it is a folder; name a surface file in it by Geometry/File.");
       if (!std::filesystem::is_regular_file(file, error))
         throw BadInput(
           file + ": there is no such file; check the name and the folder that it is relative to (" +

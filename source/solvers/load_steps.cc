@@ -30,7 +30,8 @@ namespace softcell
                            steps.find_first_not_of("0123456789") == std::string::npos;
     const unsigned int number = is_number ? std::stoul(steps) : 0;
     if (number == 0)
-      throw BadInput("Solver/Load steps = " + steps + ": give a number from 1 on, or 'adaptive'.");
+      throw BadInput("Solver/Load steps = " + steps +
+                     ": give a number from 1 to 9999999, or 'adaptive'.");
     return number;
   }
 

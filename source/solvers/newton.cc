@@ -211,7 +211,8 @@ namespace softcell
         else if (poor_steps == max_poor_steps)
           result.reason = std::to_string(poor_steps) + " Newton steps in a row gained little";
         else if (result.iterations == parameters_.max_iterations)
-          result.reason = std::to_string(result.iterations) + " Newton iterations were not enough";
+          result.reason = "'Solver/Newton iterations' = " + std::to_string(result.iterations) +
+                          " were not enough";
       }
       return result;
     }

@@ -137,8 +137,16 @@ namespace softcell
         field.emplace(reference->field());
       const Body &body = bodies_.get(run.parameters, console_, record_.remarks);
       console_.say(what + run.name);
-      auto simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_,
-                                                     field ? &*field : nullptr);
+      std::unique_ptr<Simulation> simulation;
+      try
+      {
+        simulation = std::make_unique<Simulation>(run.name, run.parameters, body, console_,
+                                                  field ? &*field : nullptr);
+      }
+      catch (const BadInput &error)
+      {
+        throw BadInput((has_one_run() ? "" : run.name + ": ") + error.what());
+      }
       const Size size = simulation->discretization().size();
       run.work        = work_of(run.parameters, static_cast<double>(size.integration_points),
                                 static_cast<double>(size.unknowns));

@@ -45,11 +45,13 @@ namespace softcell
 
     void check_methods(const std::string &methods)
     {
+      if (methods.empty())
+        return;
       const std::vector<std::string> known = method_names();
       for (const std::string &item : list_or_blank(methods))
       {
         const std::string method = method_and_degree(item).first;
-        if (item.empty() || std::find(known.begin(), known.end(), method) != known.end())
+        if (std::find(known.begin(), known.end(), method) != known.end())
           continue;
         std::string names;
         for (const std::string &name : known)

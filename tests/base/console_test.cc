@@ -76,3 +76,14 @@ TEST(Memory, CountsWhatIsTouched)
   EXPECT_GT(peak_rss_mib(MPI_COMM_WORLD), 256);
   EXPECT_EQ(touched.back(), 1);
 }
+
+TEST(Console, ShowsOnlyWhatATerminalCan)
+{
+  EXPECT_EQ(printable("K\u00fcgel \u20ac \U0001f600"), "K\u00fcgel \u20ac \U0001f600");
+  EXPECT_EQ(printable("a\x1b[2Jb\nc\x7f"), "a?[2Jb?c?");
+  EXPECT_EQ(printable("\xff\xc3x\xe2\x82"), "??x??");
+  const std::string text = printable(std::string(100000, 'x') + "; mend it.");
+  EXPECT_LT(text.size(), 1100u);
+  EXPECT_NE(text.find("x ... x"), std::string::npos);
+  EXPECT_EQ(text.substr(text.size() - 10), "; mend it.");
+}

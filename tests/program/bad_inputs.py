@@ -33,6 +33,7 @@ def write_files(folder):
     write("nan.off", [("nan", 0, 0), *VERTICES[1:]], TRIANGLES)
     # a fin on an edge, and two tetrahedra one of which pierces the other
     write("fin.off", [*VERTICES, (0.1, 0.1, 0.1)], [*TRIANGLES, (0, 1, 4)])
+    write("apart.off", VERTICES + moved(VERTICES, 0.2), TRIANGLES + shifted(TRIANGLES, 4))
     write("pierced.off", VERTICES + moved(VERTICES, 0.02), TRIANGLES + shifted(TRIANGLES, 4))
     (folder / "truncated.off").write_text(off(VERTICES, TRIANGLES)[:60])
     (folder / "truncated.stl").write_bytes(b"\0" * 80 + struct.pack("<I", 1000) + b"\0" * 70)
@@ -44,14 +45,24 @@ def write_files(folder):
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n"
         + "".join(f"{i} {node}\n" for i, node in enumerate(nodes, 1))
         + "$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n$EndElements\n")
+    text = (folder / "tangled.msh").read_text()
+    (folder / "truncated.msh").write_text(text[:150])
+    (folder / "nan.msh").write_text(text.replace("0 0 0.5", "0 0 nan"))
     header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\nencoding: raw\n\n").encode()
     (folder / "image.nrrd").write_bytes(header + b"\1" * 512)
     (folder / "two.nrrd").write_bytes(header + b"\1" * 256 + b"\2" * 256)
+    (folder / "great.nrrd").write_bytes(header.replace(b"8 8 8", b"200000 8 8"))
+    (folder / "apart.mhd").write_text("ObjectType = Image\nNDims = 3\nDimSize = 8 8 8\nElementSpacing = 1 1 1\n"
+                                      "ElementType = MET_UCHAR\nElementDataFile = gone.raw\n")
     (folder / "truncated.nrrd").write_bytes(header + b"\1" * 100)
 
 
 def surface(file):
     return ["Geometry/Type = surface", f"Geometry/File = {file}"]
+
+
+def mesh(file):
+    return ["Discretization/Method = tetrahedra", f"Discretization/Mesh file = {file}"]
 
 
 def image(file, *more):
@@ -85,7 +96,7 @@ BAD_INPUTS = [
     ("Poisson ratio of two", ["Material/Poisson ratio = 2"], None, ["Poisson ratio", "2"]),
     ("radius of zero", ["Geometry/Radius = 0"], None, ["Radius", "0"]),
     ("missing surface", surface("nowhere.off"), None, ["nowhere.off"]),
-    ("folder for a surface", surface("."), None, ["."]),
+    ("folder for a surface", surface("."), None, [".", "is a folder"]),
     ("unknown format", surface("surface.xyz"), None, ["surface.xyz"]),
     ("empty surface", surface("empty.off"), None, ["empty.off"]),
     ("truncated surface", surface("truncated.off"), None, ["truncated.off"]),
@@ -99,11 +110,14 @@ BAD_INPUTS = [
     ("truncated image", image("truncated.nrrd"), None, ["truncated.nrrd"]),
     ("empty label", image("image.nrrd", "Geometry/Labels = 7"), None, ["image.nrrd", "7", "1"]),
     ("region that selects nothing", ["Regions/base = z < -1"], None, ["base", "nothing"]),
+    ("region without a comparison", ["Regions/top = 0.1"], None, ["Regions/top = '0.1'", "everywhere", "z > 0.1"]),
     ("region that cannot be read", ["Regions/base = z <"], None, ["base", "z <"]),
     ("load on no region", ["Loads/side = clamp"], None, ["side", "base", "top"]),
     ("load of no kind", ["Loads/top = tracktion 0, 0, 1"], None, ["top", "tracktion", "traction"]),
     ("load without values", ["Loads/top = traction 0, 1"], None, ["top", "traction"]),
     ("free to move", ["Loads/base = traction 0, 30, 0"], None, ["free"]),
+    ("part that nothing holds", [*surface("apart.off"), "Regions/top = z > 0.02", "Probes/tip = 0.01, 0.01, 0.01"], None,
+     ["2 separate parts", "free to move along x, y and z"]),
     ("assignment in a load", ["Loads/top = traction 0, x = 3, 0"], None, ["Loads/top", "x = 3", "=="]),
     ("load without end", ["Loads/top = traction 1/0, 0, 0"], None, ["Loads/top", "finite"]),
     ("load without a value on the way", ["Loads/top = traction sqrt(t - 0.25), 0, 0"], None,
@@ -142,6 +156,12 @@ BAD_INPUTS = [
     ("empty list of cells", ["Discretization/Cells ="], None, ["Cells", "''"]),
     ("two numbers of cells", ["Discretization/Cells = 4, 4"], None, ["Cells = 4, 4", "three"]),
     ("scale of zero", [*surface("good.off"), "Geometry/Scale = 0"], None, ["Scale", "0"]),
+    ("too many load steps", ["Solver/Load steps = 1000000000"], None, ["Load steps", "1 to 9999999"]),
+    ("study of no method", ["Study/Methods = ,"], None, ["Study/Methods", "give some of"]),
+    ("cells too large", ["Discretization/Cell size = 5"], None, ["Discretization/Cell size = 5", "coarse"]),
+    ("grid too large", ["Discretization/Grid scale = 1000"], None, ["Grid scale = 1000", "coarse"]),
+    ("image of great size", image("great.nrrd"), None, ["great.nrrd", " 200000 voxels"]),
+    ("image without its voxels", image("apart.mhd"), None, ["gone.raw", "apart.mhd"]),
     ("no load steps", ["Solver/Load steps = 0"], None, ["Load steps", "0", "adaptive"]),
     ("dynamics", ["Solver/Mode = dynamic"], None, ["Solver/Mode", "dynamic", "static"]),
     ("contradictory supports", ["Discretization/Method = hexahedra", "Loads/top = displacement 0, 0, 0.1",
@@ -167,6 +187,8 @@ BAD_INPUTS = [
     ("sweep of an unknown entry", ["Sweeps/tissue = a: Material/Densty = 1"], None,
      ["Sweeps/tissue, a", "Densty", "'Density'"]),
     ("sweep out of range", ["Sweeps/tissue = a: Discretization/Cut levels = -1"], None, ["Sweeps/tissue, a", "-1"]),
+    ("sweep to a wrong modulus", ["Sweeps/tissue = soft: Material/Young modulus = -5 | firm: "], None,
+     ["soft: ", "Young modulus", "-5"]),
     ("label given twice", ["Sweeps/tissue = a: | a: Material/Density = 1"], None, ["Sweeps/tissue", "'a'", "twice"]),
     ("labels that make one name", ["Sweeps/tissue = a b: | a_b: Material/Density = 1"], None, ["a_b", "twice"]),
     ("sweep given twice", [], "@BAR@subsection Sweeps\n  set a = b:\n  set a = c:\nend\n",
@@ -191,7 +213,11 @@ BAD_INPUTS = [
      ["Coarse grids", "some.msh"]),
     ("cells of a mesh that is there", ["Discretization/Mesh file = some.msh", "Study/Cells = 4, 8"], None,
      ["Study/Cells", "some.msh"]),
-    ("tangled mesh", ["Discretization/Method = tetrahedra", "Discretization/Mesh file = tangled.msh"], None,
+    ("empty mesh", mesh("empty.off"), None, ["empty.off", "is empty"]),
+    ("truncated mesh", mesh("truncated.msh"), None, ["truncated.msh", "cut short"]),
+    ("junk for a mesh", mesh("junk.ply"), None, ["junk.ply", "no Gmsh file"]),
+    ("NaN in a mesh", mesh("nan.msh"), None, ["nan.msh", "nan"]),
+    ("tangled mesh", mesh("tangled.msh"), None,
      ["tangled.msh", "1 pairs", "same side"]),
     ("refinement of a mesh", ["Discretization/Method = tetrahedra", "Discretization/Refinement steps = 1"], None,
      ["Refinement steps = 1", "tetrahedra", "background grids"]),

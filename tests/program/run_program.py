@@ -82,6 +82,7 @@ def bad_input(folder):
         check(status == 1, f"{name}: status {status} in place of 1: {out} {error}")
         for message in messages:
             check(message.lower() in error.lower(), f"{name}: '{message}' is not in: {error}")
+        check(error.rstrip("\n").isprintable(), f"{name}: bytes that no terminal shows: {error!r}")
         check(error.count("\n") == 1 and "exception" not in error.lower() and "/usr/" not in error,
               f"{name}: not one sentence: {error}")
         check(not (folder / "out").exists(), f"{name}: something was written")

@@ -11,6 +11,10 @@
 
 namespace softcell
 {
+  /// The text as a terminal can show it: `?` for bytes that are no printable character of UTF-8,
+  /// and dots for the middle of what is longer than 1000 bytes.
+  std::string printable(const std::string &text);
+
   /// Lines for the user; only rank 0 writes.
   class Console
   {

@@ -35,6 +35,9 @@ namespace softcell
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// The entries that make the cells as large as they are, for messages.
+  std::string grid_entry(const GridParameters &parameters);
+
   /// Unrefined cells of the grid around a body along each axis, and their edges h (m). The numbers
   /// are whole, and may be more than there is memory for.
   /// @throws BadInput
