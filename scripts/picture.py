@@ -287,7 +287,7 @@ def tiles(folder):
 
 def draw_study(folder):
     """A tile for each case with the body deformed, the same camera and scale for all."""
-    for old in folder.glob("*/tile.png"):
+    for old in [*folder.glob("*/tile.png"), *folder.glob("scale.png")]:
         old.unlink()
     all_bodies = {file: Deformed(file) for file in tiles(folder)}
     if not all_bodies:

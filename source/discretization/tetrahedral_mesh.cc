@@ -204,7 +204,7 @@ namespace softcell
       if (n_overlaps == 0)
         return;
       std::ostringstream text;
-      text << complaint << "is tangled: " << n_overlaps << " pairs of its "
+      text << complaint << "is tangled: " << n_overlaps << " pair(s) of its "
            << triangulation.n_active_cells()
            << " cells lie on the same side of the face that they share, the first at (" << first
            << "), in the file's unit; move the nodes there or mesh the body anew.";

@@ -129,7 +129,7 @@ namespace softcell
       for (Wish *wish : {&tetrahedra, &hexahedra})
       {
         const std::string complaint = wish->complaint();
-        EXPECT_EQ(complaint.find("1 pairs of its 2 cells") != std::string::npos, z > 0)
+        EXPECT_EQ(complaint.find("1 pair(s) of its 2 cells") != std::string::npos, z > 0)
           << complaint;
         EXPECT_EQ(complaint.empty(), z < 0) << complaint;
       }

@@ -30,7 +30,7 @@ namespace softcell
   /// Accuracy: the points stay where they are however the cell is cut, so that products of
   /// gradients are not integrated exactly, at any number of levels. In a linear cube that lies
   /// across all axes, under the tractions of a linear displacement, strains are off by 13 % (L2) at
-  /// 4 cells across, 9 % at 8 and 5 % at 16; FiniteCell has less than 1 % there at 4 levels.
+  /// 4 cells across and 8 % at 8; FiniteCell has less than 1 % there at 4 levels.
   ///
   /// Source: Brunet sec. 4.5, eq. 4.12-4.13 with v as a fraction, and p. 110 on the sparse
   /// grid.
