@@ -136,9 +136,9 @@ namespace softcell
       all.insert(parts.begin(), parts.end());
     for (const unsigned int part : all)
     {
-      const auto held          = held_.find(part);
-      const RigidModes modes   = held == held_.end() ? RigidModes(body_) : held->second;
-      const std::string motion = modes.free_motions(communicator, name_of(part, all.size()));
+      const auto held        = held_.find(part);
+      const RigidModes modes = held == held_.end() ? RigidModes(body_) : held->second;
+      std::string motion     = modes.free_motions(communicator, name_of(part, all.size()));
       if (!motion.empty())
         return motion;
     }
