@@ -218,7 +218,7 @@ BAD_INPUTS = [
     ("junk for a mesh", mesh("junk.ply"), None, ["junk.ply", "no Gmsh file"]),
     ("NaN in a mesh", mesh("nan.msh"), None, ["nan.msh", "nan"]),
     ("tangled mesh", mesh("tangled.msh"), None,
-     ["tangled.msh", "1 pairs", "same side"]),
+     ["tangled.msh", "1 pair(s)", "same side"]),
     ("refinement of a mesh", ["Discretization/Method = tetrahedra", "Discretization/Refinement steps = 1"], None,
      ["Refinement steps = 1", "tetrahedra", "background grids"]),
     ("refinement of a higher degree", ["Discretization/Degree = 2", "Discretization/Refinement steps = 1"], None,
