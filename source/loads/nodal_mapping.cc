@@ -7,6 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -65,32 +66,39 @@ namespace softcell
   {
     const auto vertices = vertices_of(surface, region);
 
-    struct Bid // laid out as MPI_DOUBLE_INT
-    {
-      double distance;
-      int rank;
-    };
-    const int my_rank = dealii::Utilities::MPI::this_mpi_process(discretization.communicator());
-    std::vector<Bid> bids;
-    std::vector<SurfacePatch> found(vertices.size());
+    std::vector<double> least; // of all ranks' distances
+    std::vector<Claim> claims;
+    std::vector<SurfacePatch> found;
     for (const auto &[number, vertex] : vertices)
     {
       const Point &X = surface.vertices()[number];
       auto shapes    = discretization.shapes_at(X, reach);
-      bids.push_back({std::numeric_limits<double>::infinity(), my_rank});
-      if (!shapes)
-        continue;
-      bids.back().distance   = shapes->claim.distance;
-      found[bids.size() - 1] = patch_of_vertex(X, vertex, std::move(*shapes));
+      claims.push_back(shapes ? shapes->claim : Claim());
+      least.push_back(claims.back().distance);
+      found.push_back(shapes ? patch_of_vertex(X, vertex, std::move(*shapes)) : SurfacePatch());
     }
-    MPI_Allreduce(MPI_IN_PLACE, bids.data(), bids.size(), MPI_DOUBLE_INT, MPI_MINLOC,
-                  discretization.communicator());
+    const MPI_Comm communicator = discretization.communicator();
+    dealii::Utilities::MPI::min(View<const double>(least), communicator, View<double>(least));
+
+    struct Bid // laid out as MPI_DOUBLE_INT
+    {
+      double precedence;
+      int rank;
+    };
+    const int my_rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+    std::vector<Bid> bids;
+    for (unsigned int k = 0; k < claims.size(); ++k)
+      bids.push_back({claims[k].distance <= least[k] + 1e-10 * reach
+                        ? claims[k].precedence
+                        : std::numeric_limits<double>::lowest(),
+                      my_rank});
+    MPI_Allreduce(MPI_IN_PLACE, bids.data(), bids.size(), MPI_DOUBLE_INT, MPI_MAXLOC, communicator);
 
     std::vector<SurfacePatch> patches;
     auto vertex = vertices.begin();
     for (unsigned int k = 0; k < bids.size(); ++k, ++vertex)
     {
-      if (bids[k].distance == std::numeric_limits<double>::infinity())
+      if (std::isinf(least[k]))
       {
         std::ostringstream message;
         message << "The surface point (" << surface.vertices()[vertex->first] << ") of region '"

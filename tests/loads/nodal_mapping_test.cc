@@ -12,6 +12,24 @@
 
 namespace softcell
 {
+  namespace
+  {
+    /// Has shapes at all points on all ranks: below y = 1/2 the first rank's cells are nearest,
+    /// else all are equally near, those of the last rank with the highest precedence.
+    class ClaimsOfRanks : public BoxOfCells
+    {
+    public:
+      using BoxOfCells::BoxOfCells;
+      std::optional<PointShapes> shapes_at(const Point &X, const double) const override
+      {
+        const int rank = dealii::Utilities::MPI::this_mpi_process(communicator());
+        auto shapes    = BoxOfCells::shapes_at(X, 1);
+        shapes->claim  = {X[1] < 0.5 && rank == 0 ? 0.05 : 0.1, double(rank)};
+        return shapes;
+      }
+    };
+  } // namespace
+
   // The mapping keeps the resultant and the moment of the nodal forces T^s, since the shapes sum to
   // 1 and reproduce X. With T^s of a uniform traction these are those of the traction itself.
   TEST(NodalMapping, KeepsResultantAndMoment)
@@ -33,6 +51,19 @@ namespace softcell
       return Direction({-X[1], X[0], 0});
     });
     EXPECT_NEAR(-(r * about_z), -30, 1e-12); // force (0, -30, 2) at (1, 1/2, 1/2)
+  }
+
+  // So the result does not depend on what cells a rank has.
+  TEST(NodalMapping, TakesTheNearestCellAndThenThatOfHighestPrecedence)
+  {
+    const int rank      = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+              last_rank = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+    const ClaimsOfRanks grid({2, 2, 5}, Point(1, 1, 1), MPI_COMM_WORLD, false);
+    const auto patches =
+      nodal_surface_patches(grid, box_surface(Point(1, 1, 1), 3), Region("side", "nx > 0.5"), 0.2);
+    EXPECT_EQ(patches.size(), 8u * (rank == 0) + 8u * (rank == last_rank));
+    for (const SurfacePatch &patch : patches)
+      EXPECT_EQ(rank, patch.points[0][1] < 0.5 ? 0 : last_rank);
   }
 
   TEST(NodalMapping, SaysWhereTheGridDoesNotReach)
