@@ -124,7 +124,8 @@ namespace softcell
   {
     Size mine;
     CutPoints points;
-    mine.cells = cells_.size();
+    mine.cells          = cells_.size();
+    mine.unfitted_cells = rule_->n_failures();
     for (const Cell &cell : cells_)
     {
       if (cell.cut != none)
@@ -140,6 +141,7 @@ namespace softcell
     all.cells              = dealii::Utilities::MPI::sum(mine.cells, communicator());
     all.cut_cells          = dealii::Utilities::MPI::sum(mine.cut_cells, communicator());
     all.integration_points = dealii::Utilities::MPI::sum(mine.integration_points, communicator());
+    all.unfitted_cells     = dealii::Utilities::MPI::sum(mine.unfitted_cells, communicator());
     all.smallest_cut       = dealii::Utilities::MPI::min(mine.smallest_cut, communicator());
     all.unknowns           = partitioner_->size();
     all.cell_size = std::cbrt(lattice_.box({{{0, 0, 0}}, lattice_.coarsest_size}).volume());

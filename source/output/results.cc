@@ -39,6 +39,7 @@ namespace softcell
     const std::vector<std::string> further_columns  = {"load_factor",
                                                        "cell_size",
                                                        "smallest_cut",
+                                                       "unfitted_cells",
                                                        "load_energy",
                                                        "stabilization_energy",
                                                        "condition",

@@ -62,6 +62,8 @@ namespace softcell
     row.set("cell_size", cell_size());
     if (size_.smallest_cut < 1)
       row.set("smallest_cut", size_.smallest_cut);
+    if (parameters_.discretization.method == "moment fitting")
+      row.set("unfitted_cells", size_.unfitted_cells);
     if (const unsigned int steps = parameters_.discretization.refinement.steps; steps > 0)
     {
       row.set("refinement_steps", steps);

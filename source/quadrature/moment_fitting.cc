@@ -6,6 +6,8 @@
 #include <softcell/base/exceptions.h>
 #include <softcell/quadrature/finite_cell.h>
 
+#include <cmath>
+
 namespace softcell
 {
   MomentFitting::MomentFitting(const CutParameters &parameters,
@@ -27,6 +29,8 @@ namespace softcell
     CutPoints all;
     finite_cell.points(0, all);
 
+    const double n_few = std::pow(degree_ + 1, 3);
+    bool has_failed    = false;
     std::vector<unsigned char> labels;
     for (unsigned int label = 0; label < body_.n_labels(); ++label)
     {
@@ -39,10 +43,12 @@ namespace softcell
           weights.push_back(all.weights[q]);
         }
       compression_.compress(points, weights);
+      has_failed = has_failed || points.size() > n_few;
       points_.insert(points_.end(), points.begin(), points.end());
       weights_.insert(weights_.end(), weights.begin(), weights.end());
       labels.insert(labels.end(), points.size(), label);
     }
+    n_failures_ += has_failed;
     starts_.push_back(points_.size());
     labels_.add(labels.empty() ? std::vector<unsigned char>{0} : labels);
     return volume;

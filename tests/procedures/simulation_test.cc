@@ -3,7 +3,10 @@
 
 #include "small_problems.h"
 
+#include "../box_surface.h"
+
 #include <softcell/base/exceptions.h>
+#include <softcell/geometry/surface_body.h>
 
 #include <cmath>
 
@@ -64,4 +67,33 @@ TEST(Simulation, tells_the_edge_of_its_cells)
   p.discretization.method    = "tetrahedra";
   p.discretization.mesh.size = 0.4;
   EXPECT_NEAR(solve(p).row.number("cell_size"), 0.4, 1e-12);
+}
+
+/// Two cubes in opposite corners of the only cell, one of them 1/512 of the other: there moment
+/// fitting finds no few points (moment_fitting_test.cc).
+TEST(Simulation, tells_of_cells_without_fitted_points)
+{
+  const Surface unit                       = box_surface(Point(1, 1, 1), 1);
+  std::vector<Point> vertices              = unit.vertices();
+  std::vector<Surface::Triangle> triangles = unit.triangles();
+  for (Point &X : vertices)
+    X /= 16;
+  for (const Point &X : unit.vertices())
+    vertices.push_back(Point(1, 1, 1) * 127. / 128 + (X - Point()) / 128);
+  for (const auto &[a, b, c] : unit.triangles())
+    triangles.push_back({a + 8, b + 8, c + 8});
+
+  Parameters p                = body_of("surface", {"moment fitting", 1}, 1);
+  p.discretization.cut.levels = 7;
+  p.regions                   = {{"base", "z < 0.5"}};
+  p.load_entries              = {{"base", "clamp"}};
+  const Solved solved = solve(p, std::make_unique<SurfaceBody>(Surface(vertices, triangles)));
+  EXPECT_EQ(solved.row.get("unfitted_cells"), "1");
+  EXPECT_NE(solved.simulation->remarks().front().find("In 1 of 1 cut cells"), std::string::npos);
+
+  p                           = body_of("cylinder", {"moment fitting", 1}, 3);
+  p.discretization.cut.levels = 1;
+  p.regions                   = {{"base", "z < 1e-9"}};
+  p.load_entries              = {{"base", "clamp"}};
+  EXPECT_EQ(solve(p).row.get("unfitted_cells"), "0");
 }

@@ -21,6 +21,24 @@ namespace softcell
       return std::accumulate(points.weights.begin(), points.weights.end(), 0.);
     }
 
+    /// Nearly all in one corner of the unit cube, 1/512 of it in the opposite one.
+    class OppositeCorners : public Brick
+    {
+    public:
+      OppositeCorners() : Brick(Box({Point(), Point(1, 1, 1) / 16})) {}
+      bool contains(const Point &X) const override
+      {
+        return Brick::contains(X) || rest_.contains(X);
+      }
+      double filled_volume(const Box &box) const override
+      {
+        return Brick::filled_volume(box) + rest_.filled_volume(box);
+      }
+
+    private:
+      Brick rest_ = Brick(Box({Point(1, 1, 1) * 127. / 128, Point(1, 1, 1)}));
+    };
+
     /// Integral of x^a over [lower, upper].
     double power_integral(const int a, const double lower, const double upper)
     {
@@ -139,5 +157,26 @@ namespace softcell
     }
     EXPECT_NEAR(volume[0], 0.25, 1e-10);
     EXPECT_NEAR(volume[1], 0.75, 1e-10);
+  }
+
+  /// Each of eight points has 1/80 of the volume at least, so that one alone in the second corner
+  /// weighs six times too much. With all of them nearer and the right mean, the integral of xy
+  /// misses at least half of what the second corner gives.
+  TEST(MomentFitting, CountsTheCellsThatKeepThePointsOfFiniteCell)
+  {
+    const Box cell({Point(), Point(1, 1, 1)});
+    const OppositeCorners corners;
+    MomentFitting rule({7}, 1, corners);
+    FiniteCell finite({7}, 1, corners);
+    rule.add(Box({Point(-1, -1, -1), Point(0.05, 0.05, 0.05)}));
+    EXPECT_EQ(rule.n_failures(), 0u);
+    rule.add(cell);
+    finite.add(cell);
+    EXPECT_EQ(rule.n_failures(), 1u);
+    CutPoints kept, all;
+    rule.points(1, kept);
+    finite.points(0, all);
+    EXPECT_EQ(kept.points, all.points);
+    EXPECT_EQ(kept.weights, all.weights);
   }
 } // namespace softcell

@@ -73,9 +73,9 @@ namespace softcell
   /// How much work a discretization is.
   struct Size
   {
-    std::size_t cells = 0, cut_cells = 0, unknowns = 0,
-                integration_points = 0; // summed over all ranks
-    double smallest_cut            = 1; // filled fraction of the cell that is filled least
+    std::size_t cells = 0, cut_cells = 0, unknowns = 0, integration_points = 0,
+                unfitted_cells = 0; // summed over all ranks
+    double smallest_cut        = 1; // filled fraction of the cell that is filled least
     double cell_size = 0; // edge of a background grid's largest cells, 0 of a mesh. Units: m
   };
 

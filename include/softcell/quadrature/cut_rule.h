@@ -56,6 +56,12 @@ namespace softcell
       return 1;
     }
 
+    /// The cells for which the rule did not find what it is known for, and has something else.
+    virtual unsigned int n_failures() const
+    {
+      return 0;
+    }
+
     /// The points of cell number `index`. Reuses the memory of `result`. If has_cell_points(), only
     /// weights and labels are filled.
     virtual void points(unsigned int index, CutPoints &result) const = 0;

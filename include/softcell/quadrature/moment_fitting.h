@@ -38,6 +38,11 @@ namespace softcell
     {
       return false;
     }
+    /// The cells that keep all of FiniteCell's points, of one material at least.
+    unsigned int n_failures() const override
+    {
+      return n_failures_;
+    }
     void points(unsigned int index, CutPoints &result) const override;
 
   private:
@@ -49,5 +54,6 @@ namespace softcell
     std::vector<double> weights_;
     std::vector<std::size_t> starts_ = {0};
     LabelList labels_;
+    unsigned int n_failures_ = 0;
   };
 } // namespace softcell
