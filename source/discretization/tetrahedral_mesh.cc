@@ -286,6 +286,11 @@ namespace softcell
       {
         reader.read_msh(input);
       }
+      catch (const dealii::GridIn<3>::ExcInvalidVertexIndexGmsh &)
+      {
+        throw BadInput(complaint +
+                       "has an element with a node that is not in the file; export it again.");
+      }
       catch (const std::exception &error)
       {
         throw BadInput(

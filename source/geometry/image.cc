@@ -23,6 +23,9 @@ namespace softcell
     std::string read_bytes(const std::string &file,
                            const std::string &remedy = "check Geometry/File")
     {
+      std::error_code error;
+      if (std::filesystem::is_directory(file, error))
+        refuse_image(file, "it is a folder; name an image in it by Geometry/File.");
       std::ifstream in(file, std::ios::binary);
       if (!in)
         refuse_image(file, "it cannot be opened; " + remedy + ".");

@@ -47,6 +47,7 @@ def write_files(folder):
         + "$EndNodes\n$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 1 2 3 5\n$EndElements\n")
     text = (folder / "tangled.msh").read_text()
     (folder / "truncated.msh").write_text(text[:150])
+    (folder / "no_node.msh").write_text(text.replace("1 2 3 5", "1 2 3 9"))
     (folder / "nan.msh").write_text(text.replace("0 0 0.5", "0 0 nan"))
     header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\nencoding: raw\n\n").encode()
     (folder / "image.nrrd").write_bytes(header + b"\1" * 512)
@@ -107,6 +108,7 @@ BAD_INPUTS = [
     ("surface that is no manifold", surface("fin.off"), None, ["fin.off"]),
     ("surface through itself", surface("pierced.off"), None, ["pierced.off"]),
     ("missing image", image("nowhere.nrrd"), None, ["nowhere.nrrd"]),
+    ("folder for an image", image("."), None, ["is a folder", "Geometry/File"]),
     ("truncated image", image("truncated.nrrd"), None, ["truncated.nrrd"]),
     ("empty label", image("image.nrrd", "Geometry/Labels = 7"), None, ["image.nrrd", "7", "1"]),
     ("region that selects nothing", ["Regions/base = z < -1"], None, ["base", "nothing"]),
@@ -217,6 +219,7 @@ BAD_INPUTS = [
     ("truncated mesh", mesh("truncated.msh"), None, ["truncated.msh", "cut short"]),
     ("junk for a mesh", mesh("junk.ply"), None, ["junk.ply", "no Gmsh file"]),
     ("NaN in a mesh", mesh("nan.msh"), None, ["nan.msh", "nan"]),
+    ("mesh without one of its nodes", mesh("no_node.msh"), None, ["no_node.msh", "a node that is not in the file"]),
     ("tangled mesh", mesh("tangled.msh"), None,
      ["tangled.msh", "1 pair(s)", "same side"]),
     ("refinement of a mesh", ["Discretization/Method = tetrahedra", "Discretization/Refinement steps = 1"], None,
