@@ -194,7 +194,7 @@ namespace softcell
     const auto &corners    = cells_->box.get_boundary_points();
     const double round_off = 1e-10 * corners.first.distance(corners.second);
     // Ever more boxes around X, until the next one is farther than the cell that was found. Within
-    // a cell, away from its faces, no other cell has a claim.
+    // a cell, away from its faces, no other cell has a claim, even if it is ten times as large.
     bool is_within  = false;
     double next_box = 0;
     for (unsigned int n = 8; next_box <= claim.distance + round_off && !is_within; n *= 8)
@@ -214,7 +214,8 @@ namespace softcell
           continue;
         best      = {xi, cell};
         claim     = other;
-        is_within = cells_->reference.element->reference_cell().contains_point(xi, -1e-9);
+        is_within = cells_->reference.element->reference_cell().contains_point(
+          xi, -10 * FittedCells::round_off);
         if (is_within)
           break;
       }

@@ -215,7 +215,7 @@ namespace softcell
     else
       for (unsigned int d = 0; d < 3; ++d)
         inside[d] = std::min(inside[d], 1.);
-    if (converged && inside.distance(xi) < 1e-10)
+    if (converged && inside.distance(xi) < round_off)
       return {xi, 0.};
     const ShapeTable there = reference.shapes_at({inside});
     return {converged ? xi : inside, X.distance(position(nodes_here, there.value(0)))};

@@ -27,6 +27,9 @@ namespace softcell
       Direction normal;
     };
 
+    /// How far outside a cell a point still counts as inside, in the cell's coordinates.
+    static constexpr double round_off = 1e-10;
+
     const ReferenceElement reference;
 
     std::vector<unsigned int> nodes;                  // (n_cells, n_nodes)
