@@ -7,7 +7,7 @@
 #include <softcell/base/version.h>
 #include <softcell/output/commit.h>
 
-#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
 
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 
 namespace softcell
 {
@@ -130,6 +131,25 @@ namespace softcell
   void write_run_record(const std::string &file, const RunRecord &record)
   {
     write_file(file, json(record));
+  }
+
+  void write_failure(const std::string &file, const RunRecord &record)
+  {
+    try
+    {
+      boost::property_tree::ptree tree;
+      boost::property_tree::read_json(file, tree);
+      if (tree.get<std::string>("status") == record.status)
+        return;
+      // other ranks may write at this moment
+      const std::string mine =
+        file + '.' + std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+      write_run_record(mine, record);
+      std::filesystem::rename(mine, file);
+    }
+    catch (const std::exception &) // the error that is to be recorded matters more
+    {
+    }
   }
 
   std::vector<double> read_linear_residuals(const std::string &file)

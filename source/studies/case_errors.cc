@@ -25,7 +25,7 @@ namespace softcell
     }
 
     /// @return the fraction of the volume that they leave out.
-    double set_errors(const Simulation &simulation, const Simulation *reference, ResultsRow &row)
+    double set_errors(Simulation &simulation, const Simulation *reference, ResultsRow &row)
     {
       const Timers::Scope scope(simulation.timers(), "errors");
       const Difference error = error_of(simulation, reference);
@@ -43,8 +43,7 @@ namespace softcell
     }
   } // namespace
 
-  std::string
-  add_errors(const Simulation &simulation, const Simulation *const reference, ResultsRow &row)
+  std::string add_errors(Simulation &simulation, const Simulation *const reference, ResultsRow &row)
   {
     const double missed = set_errors(simulation, reference, row);
     row.set("errors_s", simulation.timers().seconds("errors"));

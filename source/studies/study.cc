@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <tuple>
 
@@ -90,20 +89,6 @@ namespace softcell
              dynamic_cast<const NotConverged *>(&error) != nullptr ||
              dynamic_cast<const InvertedPoint *>(&error) != nullptr ||
              dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-    }
-
-    /// With the errors, where there are some.
-    double seconds_of(const ResultsRow &row)
-    {
-      const double errors = row.number("errors_s");
-      return row.number("total_s") + (std::isnan(errors) ? 0 : errors);
-    }
-
-    std::string reason_of(const std::exception &error)
-    {
-      return dynamic_cast<const std::bad_alloc *>(&error) != nullptr
-               ? "out of memory; use fewer cells or more machines"
-               : error.what();
     }
 
     Study::Study(const std::string &file,
@@ -279,7 +264,7 @@ namespace softcell
         {
           record_.status  = "failed";
           record_.message = error.what();
-          write_run_record((folder_ / "run.json").string(), record_);
+          write_failure((folder_ / "run.json").string(), record_);
         }
         throw;
       }

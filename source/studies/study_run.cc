@@ -16,6 +16,8 @@
 #include <boost/serialization/utility.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <new>
 
 namespace softcell
 {
@@ -119,6 +121,12 @@ namespace softcell
     return {cases, references};
   }
 
+  double seconds_of(const ResultsRow &row)
+  {
+    const double errors = row.number("errors_s");
+    return row.number("total_s") + (std::isnan(errors) ? 0 : errors);
+  }
+
   void recall(StudyRun &run,
               const std::filesystem::path &folder,
               const unsigned int n_ranks,
@@ -140,6 +148,13 @@ namespace softcell
     });
     for (const auto &[column, value] : dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, values))
       run.row.set(column, value);
+  }
+
+  std::string reason_of(const std::exception &error)
+  {
+    return dynamic_cast<const std::bad_alloc *>(&error) != nullptr
+             ? "out of memory; use fewer cells or more machines"
+             : error.what();
   }
 
   ResultsRow failed_row(const StudyRun &run, const std::string &reason)

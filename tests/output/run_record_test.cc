@@ -59,3 +59,27 @@ TEST(RunRecord, GivesBackTheResidualsOfItsFirstCase)
   std::remove(file.c_str());
   EXPECT_TRUE(read_linear_residuals(file).empty());
 }
+
+TEST(RunRecord, KeepsTheFirstFailure)
+{
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const char *file   = "run_record_test_failed.json";
+  RunRecord record;
+  const auto write_on_all = [&](const std::string &message) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    record.status  = "failed";
+    record.message = message;
+    write_failure(file, record);
+    MPI_Barrier(MPI_COMM_WORLD);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_json(file, tree);
+    return tree.get<std::string>("message");
+  };
+  if (is_root)
+    write_run_record(file, record); // running
+  EXPECT_EQ(write_on_all("first"), "first");
+  EXPECT_EQ(write_on_all("second"), "first");
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (is_root)
+    std::remove(file);
+}

@@ -77,7 +77,7 @@ namespace softcell
     }
 
     /// What took how long; what is done with the solution may be added.
-    Timers &timers() const
+    Timers &timers()
     {
       return timers_;
     }
@@ -145,7 +145,7 @@ namespace softcell
     const Body &body_;
     Console &console_;
     std::optional<DisplacementField> reference_;
-    mutable Timers timers_;
+    Timers timers_;
     std::vector<std::string> remarks_;
     std::vector<Material> materials_;
     std::vector<Region> regions_;

@@ -7,6 +7,7 @@
 #include <softcell/procedures/parameters.h>
 #include <softcell/studies/time_left.h>
 
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -51,6 +52,9 @@ namespace softcell
   /// By which the time of a run is guessed from that of others.
   Work work_of(const Parameters &parameters, double points, double unknowns);
 
+  /// The time of a run, and of finding its errors where there are some. Units: s
+  double seconds_of(const ResultsRow &row);
+
   /// The entries of a run that its results depend on: all but those of the study as a whole.
   std::vector<ParameterFile::Entry> own_entries(const Parameters &parameters);
 
@@ -62,6 +66,9 @@ namespace softcell
               const std::filesystem::path &folder,
               unsigned int n_ranks,
               const std::string &reference);
+
+  /// What a user should read of an error that ended a run.
+  std::string reason_of(const std::exception &error);
 
   /// The row of a run that threw; without a fingerprint, so that it is tried again.
   ResultsRow failed_row(const StudyRun &run, const std::string &reason);
