@@ -9,9 +9,12 @@ namespace softcell
   {
     /// Deflection of a clamped linear beam by a force across its end, in parts of Timoshenko's,
     /// F L^3 / (3 E I) + F L / (G A 5/6). Rank 0 alone has it.
-    double relative_deflection(const Method &method, const unsigned int n, const bool projection)
+    double relative_deflection(const Method &method,
+                               const unsigned int n,
+                               const bool projection,
+                               const double nu = 0.499)
     {
-      const double L = 10, E = 1000, nu = 0.499, force = 1e-3, I = 1. / 12, G = E / (2 * (1 + nu));
+      const double L = 10, E = 1000, force = 1e-3, I = 1. / 12, G = E / (2 * (1 + nu));
       Parameters p                = body_of("box", method, n);
       p.geometry.size             = Point(1, 1, L);
       p.material.model            = "linear";
@@ -26,23 +29,30 @@ namespace softcell
     }
   } // namespace
 
-  // In a beam of height H, trilinear cells of edge h are too stiff in shear by (G/E) (h/H)^2, here
-  // by a twelfth; the clamp, which lets nothing contract, stiffens the beam by some percent more.
+  // In a beam of height H, trilinear cells of edge h are too stiff in bending by (G/E) (h/H)^2,
+  // here by a twelfth. The clamp lets nothing contract, which makes about half a height of the beam
+  // stiffer, by up to 1 / (1 - nu^2) = 4/3 as in plane strain: that costs up to 3 (H/2) / L (1 -
+  // 3/4) = 0.0375 of the deflection. Cut cells of this size err by more: as much as at nu =
+  // 0.3 at most, where little locks, shear is stiffer and the clamp matters less.
   TEST(Locking, projection_frees_a_nearly_incompressible_beam)
   {
+    constexpr double clamp = 0.0375;
     for (const char *const method : {"hexahedra", "finite cell", "weighted cell"})
     {
       SCOPED_TRACE(method);
-      const double locked = relative_deflection({method, 1}, 2, false);
-      const double freed  = relative_deflection({method, 1}, 2, true);
+      const double locked       = relative_deflection({method, 1}, 2, false);
+      const double freed        = relative_deflection({method, 1}, 2, true);
+      const double compressible = relative_deflection({method, 1}, 2, false, 0.3);
       if (is_root())
       {
-        EXPECT_LT(locked, 0.55);
-        EXPECT_GT(freed, 1.4 * locked); // cut cells of this size err by more than locking
+        EXPECT_LT(locked, 0.55); // there is something to free
+        EXPECT_GT(freed, (1 - clamp) * compressible);
         EXPECT_LT(freed, 1);
         if (std::string(method) == "hexahedra")
         {
-          EXPECT_GT(freed, 1 - 1. / 12 - 0.04);
+          const double bending = 12. / 13;
+          EXPECT_GT(freed, bending - clamp);
+          EXPECT_LT(freed, bending + 0.01 * (1 - bending)); // shear has a hundredth, unlocked
         }
       }
     }
@@ -50,6 +60,10 @@ namespace softcell
     const double fitted    = relative_deflection({"tetrahedra", 2}, 3, false);
     if (is_root())
     {
+      EXPECT_GT(quadratic, 1 - clamp);
+      EXPECT_LT(quadratic, 1);
+      // Finer meshes (hexahedra: 3 cells, tetrahedra: 5, falling with order 1.8) show these to be
+      // 0.002 and 0.017 too stiff.
       EXPECT_NEAR(quadratic, fitted, 0.02);
     }
   }
