@@ -27,6 +27,17 @@ namespace softcell
       return 0.5 * (1 / (h[1] * h[2]) + 1 / (h[0] * h[2]) + 1 / (h[0] * h[1]));
     }
 
+    /// A surface of all directions meets two faces of the grid for each cut cell: these lie between
+    /// cut cells. Of the others half lead to full cells, which is one more. A face couples the
+    /// nodes that its cells do not share, p (p + 1)^2 in each, both ways; to neighbouring faces
+    /// along the surface, both couple some of the same.
+    void add_ghost_faces(ExpectedSize &size, const unsigned int degree)
+    {
+      const double n = std::pow(degree + 1, 2);
+      size.ghost_faces += 3 * size.cut_cells;
+      size.couplings += size.ghost_faces * 2 * std::pow(degree * n, 2) * (n - 1) / n;
+    }
+
     ExpectedSize size_of_grid(const DiscretizationParameters &parameters, const Body &body)
     {
       Direction h;
@@ -49,6 +60,8 @@ namespace softcell
       size.cut_cells      = std::min(size.cut_cells, size.grid_cells);
       const double active = std::min(half_filled + size.cut_cells / 2, size.grid_cells);
       add_hexahedra(size, parameters.degree, active);
+      if (parameters.cut.ghost_penalty > 0 && has_cut_levels(parameters.method))
+        add_ghost_faces(size, parameters.degree);
       return size;
     }
 

@@ -54,6 +54,8 @@ namespace softcell
     if (discretization.method == "finite cell") // its leaves, and which of their points are inside
       memory.shared += size.cut_cells * std::pow(4, discretization.cut.levels) *
                        (10 + std::pow(discretization.degree + 1, 3) / 5);
+    const double n_nodes = std::pow(discretization.degree + 1, 2) * (2 * discretization.degree + 1);
+    memory.shared += size.ghost_faces * (8 * n_nodes * n_nodes + 4 * n_nodes + 100); // GhostFace
     if (discretization.method == "tetrahedra" || discretization.method == "hexahedra")
       memory.by_each = 300 * size.cells; // every rank has the whole mesh
     if (discretization.method != "tetrahedra")

@@ -16,6 +16,7 @@ namespace softcell
     {
       std::string method, type;
       unsigned int degree, refinement;
+      double ghost_penalty = 0;
     };
 
     /// Pairs of nodes that a tangent couples.
@@ -28,6 +29,8 @@ namespace softcell
         const auto nodes = discretization.patch(i, storage).nodes;
         lists.emplace_back(nodes.begin(), nodes.end());
       }
+      for (const GhostFace &face : discretization.ghost_faces())
+        lists.push_back(face.nodes);
       const BlockMatrix matrix(discretization.partitioner(), lists);
       const double n_here = matrix.row_start()[discretization.n_owned_nodes()];
       return dealii::Utilities::MPI::sum(n_here, discretization.communicator());
@@ -39,6 +42,8 @@ namespace softcell
     for (const Case &one : {Case{"weighted cell", "cylinder", 1, 0},
                             {"weighted cell", "sphere", 2, 0},
                             {"finite cell", "sphere", 1, 2},
+                            {"finite cell", "sphere", 1, 0, 0.1},
+                            {"weighted cell", "sphere", 2, 0, 0.1},
                             {"sparse grid", "box", 1, 0},
                             {"hexahedra", "cylinder", 2, 0},
                             {"tetrahedra", "box", 1, 0},
@@ -55,7 +60,8 @@ namespace softcell
       parameters.degree                  = one.degree;
       parameters.grid.cells              = {12};
       parameters.grid.surface_refinement = one.refinement;
-      parameters.cut.levels              = 1;
+      parameters.cut.levels              = one.ghost_penalty > 0 ? 3 : 1; // fewer miss slivers
+      parameters.cut.ghost_penalty       = one.ghost_penalty;
       std::vector<std::string> remarks;
       const auto body = make_body(geometry, remarks);
 
@@ -65,6 +71,9 @@ namespace softcell
       EXPECT_NEAR(expected.cells, size.cells, 0.2 * size.cells);
       const double couplings = n_couplings(*made);
       EXPECT_NEAR(expected.couplings, couplings, 0.25 * couplings);
+      const double faces =
+        dealii::Utilities::MPI::sum(double(made->ghost_faces().size()), MPI_COMM_WORLD);
+      EXPECT_NEAR(expected.ghost_faces, faces, 0.25 * faces);
       // of 12 cells, the nodes on the far side count too: (1 + 1/12)^3
       EXPECT_NEAR(3 * expected.nodes, size.unknowns, 0.3 * size.unknowns);
       if (size.cut_cells > 0 && one.type == "sphere") // flat ends may lie between cells

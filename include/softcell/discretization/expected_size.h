@@ -9,11 +9,12 @@ namespace softcell
   /// Numbers over all ranks, within about a fifth for bodies that are some cells thick.
   struct ExpectedSize
   {
-    double grid_cells = 0; // of the background grid, those beside the body too; 0 for a mesh
-    double cells      = 0;
-    double cut_cells  = 0;
-    double nodes      = 0;
-    double couplings  = 0; // pairs of nodes that share a cell: blocks of the tangent
+    double grid_cells  = 0; // of the background grid, those beside the body too; 0 for a mesh
+    double cells       = 0;
+    double cut_cells   = 0;
+    double nodes       = 0;
+    double couplings   = 0; // pairs of nodes that share a cell or ghost face: blocks of the tangent
+    double ghost_faces = 0;
   };
 
   /// Foresees what make_discretization() makes, from the body's volume and surface; a mesh that is
