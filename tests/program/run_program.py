@@ -297,11 +297,16 @@ def organ(folder):
             rest = sum(float(row[f"{load}_f{axis}"]) for load in ("gravity", "diaphragm", "retractor"))
             check(abs(rest) < 1e-6 * weight, f"{method}: forces along {axis} sum up to {rest}")
 
-    example = (ROOT / "README.md").read_text().split("```")[1]
+    example, study = (ROOT / "README.md").read_text().split("```")[1:4:2]
     (folder / "readme.prm").write_text(example)
     status, text, error = softcell(folder / "readme.prm", "--set", "Discretization/Cells = 10", "--output",
                                    folder / "readme", folder=ROOT)
     check(status == 0, f"README's example: status {status}: {text[-2000:]} {error[-2000:]}")
+    (folder / "study.prm").write_text(example + study)
+    status, text, error = softcell(folder / "study.prm", "--output", folder / "study", folder=ROOT)
+    check(status == 0, f"README's study: status {status}: {text[-2000:]} {error[-2000:]}")
+    errors = {row["case"]: round(100 * float(row["relative_l2_error"])) for row in rows(folder / "study" / "results.csv")}
+    check(errors["moment_fitting_n9"] == 10 and errors["weighted_cell_n9"] == 12, f"README's study: {errors} %")
 
     # Of a linear body the work of its weight rises to that of the solution: where it is larger, the grid is better.
     grids = "uniform: Discretization/Cells = 16 | adaptive: Discretization/Refinement steps = 3"
