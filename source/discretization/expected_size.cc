@@ -29,8 +29,8 @@ namespace softcell
 
     /// A surface of all directions meets two faces of the grid for each cut cell: these lie between
     /// cut cells. Of the others half lead to full cells, which is one more. A face couples the
-    /// nodes that its cells do not share, p (p + 1)^2 in each, both ways; to neighbouring faces
-    /// along the surface, both couple some of the same.
+    /// nodes that its cells do not share, p (p + 1)^2 in each, both ways. Neighbouring faces couple
+    /// some of the same: the factor for that was fitted to spheres of degrees 1 and 2.
     void add_ghost_faces(ExpectedSize &size, const unsigned int degree)
     {
       const double n = std::pow(degree + 1, 2);

@@ -133,13 +133,27 @@ namespace softcell
     write_file(file, json(record));
   }
 
+  namespace
+  {
+    bool has_status(const std::string &file, const std::string &status)
+    {
+      boost::property_tree::ptree tree;
+      try
+      {
+        boost::property_tree::read_json(file, tree);
+      }
+      catch (const boost::property_tree::json_parser_error &) // none, or damaged
+      {
+      }
+      return tree.get("status", "") == status;
+    }
+  } // namespace
+
   void write_failure(const std::string &file, const RunRecord &record)
   {
     try
     {
-      boost::property_tree::ptree tree;
-      boost::property_tree::read_json(file, tree);
-      if (tree.get<std::string>("status") == record.status)
+      if (has_status(file, record.status))
         return;
       // other ranks may write at this moment
       const std::string mine =

@@ -172,7 +172,7 @@ namespace softcell
     if (size_.unfitted_cells > 0)
       remarks.push_back("In " + std::to_string(size_.unfitted_cells) + " of " +
                         std::to_string(size_.cut_cells) +
-                        " cut cells moment fitting found no few points and keeps the finite "
+                        " cut cells moment fitting did not find few points and keeps the finite "
                         "cell's, which are as accurate but many: assembling takes longer there.");
     warn(remarks);
 

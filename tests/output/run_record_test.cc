@@ -82,4 +82,8 @@ TEST(RunRecord, KeepsTheFirstFailure)
   MPI_Barrier(MPI_COMM_WORLD);
   if (is_root)
     std::remove(file);
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(write_on_all("without a file before"), "without a file before");
+  if (is_root)
+    std::remove(file);
 }

@@ -97,9 +97,10 @@ namespace softcell
 
   /// Springs that are too soft to matter keep the sphere where it is. Over the innermost cell, of
   /// edge h = 1/3, quadratic interpolation of B / r^2 errs by up to h^3 |f'''| / (72 sqrt(3)) with
-  /// f''' = -24 B / r^5, which is 5.7 % of B / r^2 at r = 1/2; equilibrium errs by less than half
-  /// of that. In accord with the power of h, the errors are half as large with cells of 1/4 and one
-  /// more level.
+  /// f''' = -24 B / r^5, which is 5.7 % of B / r^2 at r = 1/2; the
+  /// bound is half of that, since interpolation errs in both directions within the cell and
+  /// equilibrium takes a mean of it. In accord with the power of h, the errors are half as large
+  /// with cells of 1/4 and one more level.
   TEST(HollowSphere, InflatesAsItsEquationSays)
   {
     Parameters p                = body_of("hollow sphere", {"finite cell", 2}, 6);

@@ -45,7 +45,7 @@ namespace softcell
       const double compressible = relative_deflection({method, 1}, 2, false, 0.3);
       if (is_root())
       {
-        EXPECT_LT(locked, 0.55); // there is something to free
+        EXPECT_LT(locked, (1 - clamp) * compressible); // there is something to free
         EXPECT_GT(freed, (1 - clamp) * compressible);
         EXPECT_LT(freed, 1);
         if (std::string(method) == "hexahedra")
@@ -62,8 +62,8 @@ namespace softcell
     {
       EXPECT_GT(quadratic, 1 - clamp);
       EXPECT_LT(quadratic, 1);
-      // Finer meshes (hexahedra: 3 cells, tetrahedra: 5, falling with order 1.8) show these to be
-      // 0.002 and 0.017 too stiff.
+      EXPECT_LT(fitted, 1);
+      // Two elements that share no code. Finer meshes of each show them 0.002 and 0.017 too stiff.
       EXPECT_NEAR(quadratic, fitted, 0.02);
     }
   }

@@ -74,7 +74,7 @@ namespace softcell
   struct Size
   {
     std::size_t cells = 0, cut_cells = 0, unknowns = 0, integration_points = 0,
-                unfitted_cells = 0; // summed over all ranks
+                unfitted_cells = 0; // see CutRule::n_failures(); all summed over all ranks
     double smallest_cut        = 1; // filled fraction of the cell that is filled least
     double cell_size = 0; // edge of a background grid's largest cells, 0 of a mesh. Units: m
   };

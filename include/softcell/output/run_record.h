@@ -29,8 +29,8 @@ namespace softcell
   /// Writes the record into the file; call it at the start and again at the end, on rank 0.
   void write_run_record(const std::string &file, const RunRecord &record);
 
-  /// Writes the record of a run that failed on this rank, and perhaps on others at the same time:
-  /// the first one's stays. Not collective, and throws nothing.
+  /// Writes the record of a run that failed on this rank, unless another rank's failure is there;
+  /// of those at the same moment any one stays. Not collective, and throws nothing.
   void write_failure(const std::string &file, const RunRecord &record);
 
   /// The linear residuals of the first case of a record that was written; none if it cannot be

@@ -15,8 +15,8 @@ namespace softcell
   };
 
   /// By the bytes that the discretization's parts, the tangent and the linear solver were measured
-  /// to take; within about a third. What `Refinement steps` add is left out, since it is not known
-  /// before a solution is.
+  /// to take; within about a third. With a ghost penalty up to 45 % more was seen. What `Refinement
+  /// steps` add is left out, since it is not known before a solution is.
   ExpectedMemory expected_memory(const Parameters &parameters, const ExpectedSize &size);
 
   /// @throws BadInput if a machine has not that much left. Collective.

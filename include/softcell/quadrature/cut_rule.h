@@ -56,7 +56,7 @@ namespace softcell
       return 1;
     }
 
-    /// The cells for which the rule did not find what it is known for, and has something else.
+    /// The cells for which the search for few points failed.
     virtual unsigned int n_failures() const
     {
       return 0;
