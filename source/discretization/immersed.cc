@@ -319,6 +319,22 @@ namespace softcell
     return result;
   }
 
+  std::optional<UniformGrid> Immersed::uniform_grid() const
+  {
+    const int size = cells_.empty() ? 0 : cells_[0].place.size;
+    if (size == 0 || degree() != 1 || dealii::Utilities::MPI::n_mpi_processes(communicator()) > 1)
+      return {};
+    UniformGrid grid{size * lattice_.spacing, {}};
+    for (const Cell &cell : cells_)
+    {
+      if (cell.place.size != size)
+        return {};
+      const auto &[i, j, k] = cell.place.lower;
+      grid.places.push_back({{i / size, j / size, k / size}});
+    }
+    return grid;
+  }
+
   Box Immersed::owned_box() const
   {
     if (cells_.empty())

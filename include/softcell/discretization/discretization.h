@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -68,6 +69,13 @@ namespace softcell
     std::vector<PointShapes> shapes;   // (n_points) the displacement there; only values are filled
     std::vector<unsigned int> patches; // (n_cells) number of the cell's patch
     std::vector<double> cut_fraction;  // (n_cells) filled part of the cell, 1 if not cut
+  };
+
+  /// Cells of one size on a lattice.
+  struct UniformGrid
+  {
+    Direction spacing;                      // edges of a cell. Units: m
+    std::vector<std::array<int, 3>> places; // (n_patches) of the cells, in cells along the axes
   };
 
   /// How much work a discretization is.
@@ -166,6 +174,13 @@ namespace softcell
     virtual Box owned_box() const = 0;
 
     virtual DrawnCells drawn_cells() const = 0;
+
+    /// The grid, if all patches are trilinear cells of one size without hanging nodes, whose nodes
+    /// are their corners along x first, and there is no other rank.
+    virtual std::optional<UniformGrid> uniform_grid() const
+    {
+      return {};
+    }
 
   protected:
     std::shared_ptr<const Partitioner> partitioner_;

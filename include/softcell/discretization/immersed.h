@@ -79,6 +79,7 @@ namespace softcell
     std::optional<PointShapes> shapes_at(const Point &X, double reach) const override;
     Box owned_box() const override;
     DrawnCells drawn_cells() const override;
+    std::optional<UniformGrid> uniform_grid() const override;
 
   private:
     static constexpr unsigned int none = -1;

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Congruent trilinear cells of a background grid in their compact form.
+
+#include <softcell/operators/uniform_cells.h>
+
+#include <softcell/base/exceptions.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <cmath>
+#include <experimental/simd>
+#include <numeric>
+#include <tuple>
+
+namespace softcell
+{
+  namespace
+  {
+    const UniformGrid &check(const std::optional<UniformGrid> &grid,
+                             const Discretization &discretization)
+    {
+      if (!grid)
+        throw BadInput("The matrix-free operator needs a background grid without refinement, of "
+                       "degree 1, on one rank; give 'Degree = 1', 'Surface refinement = 0', and "
+                       "start the program without mpirun.");
+      PatchStorage storage;
+      for (unsigned int i = 0; i < discretization.n_patches(); ++i)
+        if (discretization.fictitious_patch(i, storage).n_points() > 0)
+          throw BadInput("The matrix-free operator has no fictitious material; give "
+                         "'Discretization/Alpha = 0'.");
+      if (discretization.ghost_faces().size() > 0)
+        throw BadInput("The matrix-free operator has no ghost penalty; give "
+                       "'Discretization/Ghost penalty = 0'.");
+      return *grid;
+    }
+
+    /// Those are the cell's Gauss points.
+    bool are_gauss_points(const std::vector<Point> &points)
+    {
+      static const std::vector<Point> gauss = dealii::QGauss<3>(2).get_points();
+      return std::equal(points.begin(), points.end(), gauss.begin(), gauss.end(),
+                        [](const Point &a, const Point &b) { return a.distance(b) < 1e-9; });
+    }
+
+    /// Lower corners of cells in a common order: along x first.
+    bool is_before(const std::array<int, 3> &a, const std::array<int, 3> &b)
+    {
+      return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
+    }
+
+    template <class Real>
+    constexpr unsigned int pack_width = std::experimental::native_simd<Real>::size();
+  } // namespace
+
+  CellLattice cell_lattice(const Discretization &discretization)
+  {
+    const std::optional<UniformGrid> uniform = discretization.uniform_grid();
+    const UniformGrid &grid                  = check(uniform, discretization);
+
+    std::array<int, 3> lower = grid.places.at(0), upper = lower;
+    for (const auto &place : grid.places)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], place[d]);
+        upper[d] = std::max(upper[d], place[d] + 1);
+      }
+
+    const std::array<int, 3> n_cells{
+      {upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}};
+    CellLattice cells{NodeLattice(n_cells),
+                      grid.spacing,
+                      {},
+                      {},
+                      std::vector<std::size_t>(discretization.node_positions().size())};
+    PatchStorage storage;
+    std::vector<Point> points;
+    std::optional<unsigned int> label;
+    for (unsigned int i = 0; i < grid.places.size(); ++i)
+    {
+      std::array<int, 3> place = grid.places[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] -= lower[d];
+      const Patch patch = discretization.patch(i, storage);
+      for (unsigned int v = 0; v < 8; ++v)
+        cells.entries[patch.nodes[v]] =
+          cells.nodes.entry(place[0] + v % 2, place[1] + v / 2 % 2, place[2] + v / 4);
+      for (unsigned int q = 0; q < patch.n_points(); ++q)
+        if (patch.weights[q] != 0 && patch.label(q) != label.value_or(patch.label(q)))
+          throw BadInput("The matrix-free operator needs a body of one material; section Geometry "
+                         "gives it several labels.");
+        else
+          label = patch.label(q);
+
+      discretization.patch_points(i, points);
+      const Point &origin = discretization.node_positions()[patch.nodes[0]];
+      for (Point &X : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          X[d] = (X[d] - origin[d]) / grid.spacing[d];
+      if (are_gauss_points(points))
+      {
+        cells.gauss_cells.push_back({place, {}});
+        std::copy(patch.weights.begin(), patch.weights.end(),
+                  cells.gauss_cells.back().weights.begin());
+      }
+      else
+        cells.point_cells.push_back({place, {patch.weights.begin(), patch.weights.end()}, points});
+    }
+    return cells;
+  }
+
+  template <class Real>
+  void copy(const Vector &from, const std::vector<std::size_t> &entries, LatticeVector<Real> &to)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      for (std::size_t node = 0; node < entries.size(); ++node)
+        to.component(c)[entries[node]] = from.local_element(3 * node + c);
+  }
+
+  template <class Real>
+  void copy(const LatticeVector<Real> &from, const std::vector<std::size_t> &entries, Vector &to)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      for (std::size_t node = 0; node < entries.size(); ++node)
+        to.local_element(3 * node + c) = from.component(c)[entries[node]];
+  }
+
+  template <class Real>
+  UniformCells<Real>::UniformCells(const CellLattice &cells) : nodes_(cells.nodes)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      spacing_[d] = cells.spacing[d];
+    add_row_packs(cells.gauss_cells, cells.spacing[0] * cells.spacing[1] * cells.spacing[2] / 8);
+    add_point_packs(cells.point_cells);
+  }
+
+  template <class Real>
+  void UniformCells<Real>::add_row_packs(const std::vector<GaussCell> &cells, const double full)
+  {
+    constexpr unsigned int W = pack_width<Real>;
+    std::vector<const GaussCell *> sorted;
+    for (const GaussCell &cell : cells)
+      sorted.push_back(&cell);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const GaussCell *a, const GaussCell *b) { return is_before(a->place, b->place); });
+
+    const auto is_full = [&](const GaussCell *cell) {
+      return std::all_of(cell->weights.begin(), cell->weights.end(),
+                         [&](const double w) { return std::abs(w - full) < 1e-12 * full; });
+    };
+    std::vector<std::size_t> starts; // of the packs' weights
+    row_layers_.assign(nodes_.n_cells()[2] + 1, 0);
+    for (auto cell = sorted.begin(); cell != sorted.end();)
+    {
+      const auto [i, j, k] = (*cell)->place;
+      const auto end       = std::find_if(cell, sorted.end(), [&](const GaussCell *other) {
+        return other->place[2] != k || other->place[1] != j || other->place[0] >= i + int(W);
+      });
+      row_packs_.push_back({nodes_.entry(i, j, k), n_points_, nullptr});
+      n_points_ += 8;
+      ++row_layers_[k + 1];
+      const bool all_full = end - cell == W && std::all_of(cell, end, is_full);
+      starts.push_back(all_full ? std::size_t(-1) : weights_.size());
+      if (!all_full)
+      {
+        weights_.resize(weights_.size() + 8 * W);
+        for (; cell != end; ++cell)
+          for (unsigned int q = 0; q < 8; ++q)
+            weights_[starts.back() + q * W + (*cell)->place[0] - i] = (*cell)->weights[q];
+      }
+      cell = end;
+    }
+    for (std::size_t p = 0; p < starts.size(); ++p)
+      if (starts[p] != std::size_t(-1))
+        row_packs_[p].weights = &weights_[starts[p]];
+    std::partial_sum(row_layers_.begin(), row_layers_.end(), row_layers_.begin());
+  }
+
+  template <class Real>
+  void UniformCells<Real>::add_point_packs(const std::vector<PointCell> &cells)
+  {
+    constexpr unsigned int W = pack_width<Real>;
+    std::vector<const PointCell *> sorted;
+    for (const PointCell &cell : cells)
+      sorted.push_back(&cell);
+    // cells with equally many points share packs
+    std::sort(sorted.begin(), sorted.end(), [](const PointCell *a, const PointCell *b) {
+      return std::make_tuple(a->place[2], a->weights.size(), a->place[1], a->place[0]) <
+             std::make_tuple(b->place[2], b->weights.size(), b->place[1], b->place[0]);
+    });
+
+    std::vector<std::size_t> starts; // of the packs' points
+    point_layers_.assign(nodes_.n_cells()[2] + 1, 0);
+    for (std::size_t c = 0, n; c < sorted.size(); c += n)
+    {
+      const int k = sorted[c]->place[2];
+      for (n = 1; n < W && c + n < sorted.size() && sorted[c + n]->place[2] == k; ++n)
+        ;
+      const unsigned int n_points = sorted[c + n - 1]->weights.size();
+      point_packs_.push_back({nullptr, n_points_, n_points, nullptr});
+      n_points_ += n_points;
+      ++point_layers_[k + 1];
+      starts.push_back(points_.size());
+      points_.resize(points_.size() + n_points * 4 * W);
+      for (unsigned int lane = 0; lane < W; ++lane)
+      {
+        const PointCell &cell = *sorted[c + std::min<std::size_t>(lane, n - 1)];
+        entries_.push_back(nodes_.entry(cell.place[0], cell.place[1], k));
+        for (unsigned int q = 0; q < cell.weights.size() && lane < n; ++q)
+        {
+          Real *const point = &points_[starts.back() + q * 4 * W + lane];
+          for (unsigned int d = 0; d < dim; ++d)
+            point[d * W] = 2 * cell.points[q][d] - 1;
+          point[3 * W] = cell.weights[q];
+        }
+      }
+    }
+    for (std::size_t p = 0; p < starts.size(); ++p)
+    {
+      point_packs_[p].entries = &entries_[p * W];
+      point_packs_[p].points  = &points_[starts[p]];
+    }
+    std::partial_sum(point_layers_.begin(), point_layers_.end(), point_layers_.begin());
+  }
+
+  template <class Real>
+  std::size_t UniformCells<Real>::memory() const
+  {
+    return (weights_.size() + points_.size()) * sizeof(Real) + row_packs_.size() * sizeof(RowPack) +
+           point_packs_.size() * sizeof(PointPack) + entries_.size() * sizeof(std::size_t);
+  }
+
+  template class UniformCells<double>;
+  template class UniformCells<float>;
+  template void copy(const Vector &, const std::vector<std::size_t> &, LatticeVector<double> &);
+  template void copy(const Vector &, const std::vector<std::size_t> &, LatticeVector<float> &);
+  template void copy(const LatticeVector<double> &, const std::vector<std::size_t> &, Vector &);
+  template void copy(const LatticeVector<float> &, const std::vector<std::size_t> &, Vector &);
+} // namespace softcell

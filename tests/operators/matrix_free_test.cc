@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The matrix-free operator against the assembled one.
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/methods.h>
+#include <softcell/operators/elasticity.h>
+#include <softcell/operators/matrix_free_elasticity.h>
+
+#include <gtest/gtest.h>
+
+#include <omp.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace softcell;
+
+  const std::vector<std::string> all_models{"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"};
+
+  struct Problem
+  {
+    std::unique_ptr<Body> body;
+    std::unique_ptr<Discretization> discretization;
+  };
+
+  Problem problem(const std::string &type, const std::string &method, const unsigned int cells)
+  {
+    GeometryParameters geometry;
+    geometry.type   = type;
+    geometry.radius = 0.5;
+    geometry.length = 1.3;
+    geometry.size   = Point(1.2, 1, 0.9);
+    std::vector<std::string> remarks;
+    Problem result{make_body(geometry, remarks), nullptr};
+    DiscretizationParameters parameters;
+    parameters.method     = method;
+    parameters.grid.cells = {cells};
+    parameters.cut.levels = 2;
+    result.discretization =
+      make_discretization(parameters, geometry, *result.body, MPI_COMM_SELF, remarks);
+    return result;
+  }
+
+  // Something without symmetry, different for each component and frequency.
+  Vector wavy(const Discretization &discretization, const double amplitude, const double frequency)
+  {
+    Vector u = discretization.make_vector();
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+    {
+      const Point &X       = discretization.node_positions()[i / 3];
+      const unsigned int c = i % 3;
+      u.local_element(i)   = amplitude * (std::sin(frequency * (X[0] + 0.3 * c * X[1] - X[2] + c)) +
+                                        X[(c + 1) % 3] * X[c]);
+    }
+    return u;
+  }
+
+  double relative_difference(const Vector &a, const Vector &b)
+  {
+    Vector d = a;
+    d -= b;
+    return d.linfty_norm() / b.linfty_norm();
+  }
+
+  /// The largest differences from Elasticity, relative to the largest values there.
+  template <class Real>
+  void expect_agreement(const Discretization &discretization,
+                        const Material &material,
+                        const double bound)
+  {
+    const Vector u = wavy(discretization, 0.03, 2), x = wavy(discretization, 1, 7);
+    const Elasticity elasticity(discretization, {material});
+    const CellLattice lattice = cell_lattice(discretization);
+    const UniformCells<Real> cells(lattice);
+    MatrixFreeElasticity<Real> matrix_free(cells, material);
+    LatticeVector<Real> U(lattice.nodes), X(lattice.nodes), Y(lattice.nodes);
+    copy(u, lattice.entries, U);
+    copy(x, lattice.entries, X);
+    Vector assembled = discretization.make_vector(), y = assembled;
+
+    EXPECT_NEAR(matrix_free.energy(U) / elasticity.energy(u), 1, bound);
+    EXPECT_NEAR(matrix_free.min_jacobian(U), elasticity.min_jacobian(u), bound);
+
+    elasticity.add_residual(u, assembled);
+    matrix_free.residual(U, Y);
+    copy(Y, lattice.entries, y);
+    EXPECT_LT(relative_difference(y, assembled), bound);
+
+    BlockMatrix K(discretization.partitioner(), elasticity.couplings());
+    elasticity.add_tangent(u, K);
+    K.compress();
+    K.vmult(assembled, x);
+    matrix_free.set_state(U);
+    matrix_free.vmult(Y, X);
+    copy(Y, lattice.entries, y);
+    EXPECT_LT(relative_difference(y, assembled), bound);
+
+    // entries that belong to no unknown stay 0
+    Real sum = 0;
+    for (const Real entry : Y.entries())
+      sum += std::abs(entry);
+    EXPECT_NEAR(sum / y.l1_norm(), 1, bound);
+
+    LatticeBlocks<Real> blocks(lattice.nodes);
+    matrix_free.diagonal(blocks);
+    const double largest = K.diagonal().linfty_norm();
+    const auto &values   = K.values();
+    for (unsigned int node = 0; node < lattice.entries.size(); ++node)
+    {
+      const auto begin    = K.columns().begin() + K.row_start()[node],
+                 end      = K.columns().begin() + K.row_start()[node + 1];
+      const std::size_t n = end - begin, block = std::find(begin, end, node) - begin;
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+          ASSERT_NEAR(blocks.component(a == b ? a : 6 - a - b)[lattice.entries[node]],
+                      values[9 * K.row_start()[node] + (a * n + block) * 3 + b], bound * largest);
+    }
+  }
+
+  TEST(MatrixFreeElasticity, IsTheAssembledOneOnCutCells)
+  {
+    for (const std::string type : {"sphere", "cylinder", "box"})
+      for (const std::string method : {"weighted cell", "moment fitting", "sparse grid"})
+      {
+        const Problem p = problem(type, method, 5);
+        for (const std::string &model : all_models)
+        {
+          SCOPED_TRACE(type + ' ' + method + ' ' + model);
+          const Material material(model, 5000, 0.3);
+          expect_agreement<double>(*p.discretization, material, 1e-12);
+          expect_agreement<float>(*p.discretization, material, 1e-5);
+        }
+      }
+  }
+
+  // Rows of 20 cells are packs of full cells, for doubles and for floats, and layers of 20 five
+  // slabs.
+  TEST(MatrixFreeElasticity, IsTheAssembledOneOnFullCells)
+  {
+    const Problem p = problem("box", "weighted cell", 18);
+    const Material material("Neo-Hookean", 5000, 0.3);
+    expect_agreement<double>(*p.discretization, material, 1e-12);
+    expect_agreement<float>(*p.discretization, material, 1e-5);
+  }
+
+  TEST(MatrixFreeElasticity, IsTheSameForAnyNumberOfThreads)
+  {
+    const Problem p           = problem("sphere", "moment fitting", 17);
+    const CellLattice lattice = cell_lattice(*p.discretization);
+    const UniformCells<double> cells(lattice);
+    LatticeVector<double> u(lattice.nodes), x(lattice.nodes), alone(lattice.nodes);
+    copy(wavy(*p.discretization, 0.02, 2), lattice.entries, u);
+    copy(wavy(*p.discretization, 1, 7), lattice.entries, x);
+    const int n_threads = omp_get_max_threads();
+    double energy_alone = 0;
+    for (const int n : {1, 2, 5})
+    {
+      omp_set_num_threads(n);
+      MatrixFreeElasticity<double> matrix_free(cells, Material("Neo-Hookean", 5000, 0.3));
+      LatticeVector<double> y(lattice.nodes);
+      matrix_free.set_state(u);
+      matrix_free.vmult(y, x);
+      if (n == 1)
+      {
+        alone        = y;
+        energy_alone = matrix_free.energy(u);
+      }
+      EXPECT_TRUE(std::equal(y.entries().begin(), y.entries().end(), alone.entries().begin()));
+      EXPECT_EQ(matrix_free.energy(u), energy_alone);
+    }
+    omp_set_num_threads(n_threads);
+  }
+
+  TEST(MatrixFreeElasticity, RefusesInvertedPoints)
+  {
+    const Problem p           = problem("sphere", "weighted cell", 4);
+    const CellLattice lattice = cell_lattice(*p.discretization);
+    const UniformCells<float> cells(lattice);
+    MatrixFreeElasticity<float> matrix_free(cells, Material("Neo-Hookean", 5000, 0.3));
+    LatticeVector<float> u(lattice.nodes), r(lattice.nodes);
+    Vector mirrored = p.discretization->make_vector();
+    for (unsigned int node = 0; node < p.discretization->n_owned_nodes(); ++node)
+      mirrored.local_element(3 * node) = -2 * p.discretization->node_positions()[node][0];
+    copy(mirrored, lattice.entries, u);
+    EXPECT_NEAR(matrix_free.min_jacobian(u), -1, 1e-5);
+    EXPECT_THROW(matrix_free.energy(u), InvertedPoint);
+    EXPECT_THROW(matrix_free.residual(u, r), InvertedPoint);
+    EXPECT_THROW(matrix_free.set_state(u), InvertedPoint);
+  }
+} // namespace
