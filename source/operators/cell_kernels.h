@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the matrix-free operator does on one cell, or on a pack of cells; for host and device.
+#pragma once
+
+#include "trilinear.h"
+
+#include <softcell/mechanics/laws.h>
+
+#include <cstddef>
+
+namespace softcell
+{
+  // `Cells` stands for the cell or cells that a kernel handles at once:
+  //   Number                  a value in each cell
+  //   Gradients               GaussGradients or PointGradients
+  //   gather(field, v)        takes the values of a component at the corners
+  //   add(v, field)           adds to them
+  //   for_each_point(f)       calls f(point, its number, its weight (m^3)) for each point
+  //   reset_where_empty(weight, F)
+  //                           sets F = I where there is no weight, so that nothing undefined comes
+  //                           of it
+
+  /// What all cells of a grid have in common.
+  template <class Real>
+  struct CellGeometry
+  {
+    std::size_t corners[8]; // entries of a LatticeField from that of the lowest corner
+    Real weight;            // of a full cell's Gauss points. Units: m^3
+    Real scale[3];          // of GaussGradients. Units: 1/m
+  };
+
+  /// The three components of a displacement, a force, ...
+  template <class Real>
+  struct Components
+  {
+    Real *component[3];
+  };
+
+  /// The gradients of three components at the points of cells.
+  template <class Cells>
+  class CellGradients
+  {
+  public:
+    using Number    = typename Cells::Number;
+    using Gradients = typename Cells::Gradients;
+
+    template <class Real>
+    SOFTCELL_HOST_DEVICE explicit CellGradients(const CellGeometry<Real> &geometry)
+        : components_{Gradients(geometry.scale), Gradients(geometry.scale),
+                      Gradients(geometry.scale)}
+    {
+    }
+
+    template <class Real>
+    SOFTCELL_HOST_DEVICE void gather(const Cells &cells, const Components<const Real> &u)
+    {
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c)
+      {
+        Corners<Number> v;
+        cells.gather(u.component[c], v);
+        components_[c].evaluate(v);
+      }
+    }
+
+    template <class AnyPoint>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> at(const AnyPoint &point) const
+    {
+      Matrix3<Number> gradient;
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c)
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; ++axis)
+          gradient(c, axis) = components_[c].derivative(point, axis);
+      return gradient;
+    }
+
+    /// I + du/dX.
+    template <class AnyPoint, class Weight>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> deformation_gradient(const AnyPoint &point,
+                                                              const Weight &weight) const
+    {
+      Matrix3<Number> F = at(point) + identity<Number>();
+      Cells::reset_where_empty(weight, F);
+      return F;
+    }
+
+    template <class AnyPoint>
+    SOFTCELL_HOST_DEVICE void add(const AnyPoint &point, const Matrix3<Number> &P)
+    {
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c)
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; ++axis)
+          components_[c].add(point, axis, P(c, axis));
+    }
+
+    /// Adds the sums over the points of what was added there times the shapes' derivatives.
+    template <class Real>
+    SOFTCELL_HOST_DEVICE void scatter(const Cells &cells, const Components<Real> &r)
+    {
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c)
+      {
+        Corners<Number> v;
+        components_[c].integrate(v);
+        cells.add(v, r.component[c]);
+      }
+    }
+
+  private:
+    Gradients components_[3];
+  };
+
+  /// The law with moduli times the weight, which multiplies all that it gives.
+  template <template <class> class Law, class Real, class Weight>
+  SOFTCELL_HOST_DEVICE Law<Weight> weighted(const Law<Real> &law, const Weight &weight)
+  {
+    return {law.lambda * weight, law.mu * weight};
+  }
+
+  /// Is the pressure lambda v worth keeping? It costs a logarithm.
+  template <class Law>
+  constexpr bool has_costly_pressure = false;
+  template <class Real>
+  constexpr bool has_costly_pressure<NeoHookean<Real>> = true;
+
+  /// Adds the internal force.
+  /// @return how many points are turned inside out, as Cells counts them.
+  template <class Cells, class Law, class Real>
+  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int add_residual(const Cells &cells,
+                                                 const Law &law,
+                                                 const CellGeometry<Real> &geometry,
+                                                 const Components<const Real> &u,
+                                                 const Components<Real> &r)
+  {
+    unsigned int n_inverted = 0;
+    CellGradients<Cells> H(geometry), stress(geometry);
+    H.gather(cells, u);
+    cells.for_each_point([&](const auto &point, std::size_t, const auto &weight) {
+      const auto F = H.deformation_gradient(point, weight);
+      n_inverted += Cells::count(!law.is_admissible(determinant(F)));
+      stress.add(point, weighted(law, weight).first_piola_stress(F));
+    });
+    stress.scatter(cells, r);
+    return n_inverted;
+  }
+
+  /// Calls f(point, weighted tangent) for all points.
+  /// @param pressures  lambda v by number of the point, unused unless has_costly_pressure.
+  template <class Cells, class Law, class Real, class F>
+  SOFTCELL_HOST_DEVICE void for_each_tangent(const Cells &cells,
+                                             const Law &law,
+                                             const CellGeometry<Real> &geometry,
+                                             const Components<const Real> &u,
+                                             const Real *pressures,
+                                             const F &f)
+  {
+    using Number = typename Cells::Number;
+    CellGradients<Cells> H(geometry);
+    H.gather(cells, u);
+    cells.for_each_point([&](const auto &point, const std::size_t number, const auto &weight) {
+      const Matrix3<Number> F_at = H.deformation_gradient(point, weight);
+      const auto own_law         = weighted(law, weight);
+      if constexpr (has_costly_pressure<Law>)
+      {
+        const Number pressure = weight * Cells::load(pressures, number);
+        auto tangent          = own_law.linearisation(F_at, pressure);
+        tangent.lambda        = own_law.lambda;
+        f(point, tangent);
+      }
+      else
+        f(point, own_law.linearisation(F_at));
+    });
+  }
+
+  /// Adds the tangent at u times x.
+  template <class Cells, class Law, class Real>
+  [[gnu::flatten]] SOFTCELL_HOST_DEVICE void add_tangent_action(const Cells &cells,
+                                               const Law &law,
+                                               const CellGeometry<Real> &geometry,
+                                               const Components<const Real> &u,
+                                               const Real *pressures,
+                                               const Components<const Real> &x,
+                                               const Components<Real> &y)
+  {
+    CellGradients<Cells> dH(geometry), stress(geometry);
+    dH.gather(cells, x);
+    for_each_tangent(
+      cells, law, geometry, u, pressures,
+      [&](const auto &point, const auto &tangent) { stress.add(point, tangent(dH.at(point))); });
+    stress.scatter(cells, y);
+  }
+
+  /// The derivatives of a corner's shape at a point.
+  template <class Number, class Real, class AnyPoint>
+  SOFTCELL_HOST_DEVICE void corner_gradient(const AnyPoint &point,
+                                            const int corner,
+                                            const Real *const scale,
+                                            Number *const gradient)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      gradient[axis] = Number((corner >> axis) & 1 ? scale[axis] : -scale[axis]);
+      for (int step = 1; step < 3; ++step)
+      {
+        const int other = (axis + step) % 3;
+        const Real sign = (corner >> other) & 1 ? 1 : -1;
+        gradient[axis] *= Real(1) + sign * Number(point.place(other));
+      }
+    }
+  }
+
+  /// Adds the diagonal blocks of the tangent at u, symmetric, in the order of LatticeBlocks.
+  template <class Cells, class Law, class Real>
+  SOFTCELL_HOST_DEVICE void add_diagonal(const Cells &cells,
+                                         const Law &law,
+                                         const CellGeometry<Real> &geometry,
+                                         const Components<const Real> &u,
+                                         const Real *pressures,
+                                         Real *const (&blocks)[6])
+  {
+    using Number         = typename Cells::Number;
+    Corners<Number> K[6] = {};
+    for_each_tangent(
+      cells, law, geometry, u, pressures, [&](const auto &point, const auto &tangent) {
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          NodalGradient<Number> dF;
+          corner_gradient(point, corner, geometry.scale, dF.gradient);
+          for (dF.component = 0; dF.component < 3; ++dF.component)
+          {
+            const Matrix3<Number> dP = tangent(dF);
+            for (int a = 0; a <= dF.component; ++a)
+              K[a == dF.component ? a : 6 - a - dF.component][corner] += dot(dP, a, dF.gradient);
+          }
+        }
+      });
+    for (int k = 0; k < 6; ++k)
+      cells.add(K[k], blocks[k]);
+  }
+} // namespace softcell
