@@ -16,6 +16,10 @@ namespace softcell
   //   gather(field, v)        takes the values of a component at the corners
   //   add(v, field)           adds to them
   //   for_each_point(f)       calls f(point, its number, its weight (m^3)) for each point
+  //   load(numbers, number), store(value, numbers, number)
+  //                           one of an array of Number
+  //   log1p(x)                ln(1 + x)
+  //   count(mask)             in how many cells the mask is true
   //   reset_where_empty(weight, F)
   //                           sets F = I where there is no weight, so that nothing undefined comes
   //                           of it
@@ -80,7 +84,10 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Matrix3<Number> deformation_gradient(const AnyPoint &point,
                                                               const Weight &weight) const
     {
-      Matrix3<Number> F = at(point) + identity<Number>();
+      Matrix3<Number> F = at(point);
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c)
+        F(c, c) += Number(1);
       Cells::reset_where_empty(weight, F);
       return F;
     }
@@ -125,14 +132,25 @@ namespace softcell
   template <class Real>
   constexpr bool has_costly_pressure<NeoHookean<Real>> = true;
 
+  /// lambda v, with the logarithm of `Cells` in place of the library's.
+  template <class Cells, class Law, class Number>
+  SOFTCELL_HOST_DEVICE Number pressure(const Law &law, const Matrix3<Number> &F)
+  {
+    if constexpr (has_costly_pressure<Law>)
+      return law.lambda * Cells::log1p(volume_change(F));
+    else
+      return law.lambda * law.volumetric_strain(F);
+  }
+
   /// Adds the internal force.
   /// @return how many points are turned inside out, as Cells counts them.
   template <class Cells, class Law, class Real>
-  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int add_residual(const Cells &cells,
-                                                 const Law &law,
-                                                 const CellGeometry<Real> &geometry,
-                                                 const Components<const Real> &u,
-                                                 const Components<Real> &r)
+  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int
+  add_residual(const Cells &cells,
+               const Law &law,
+               const CellGeometry<Real> &geometry,
+               const Components<const Real> &u,
+               const Components<Real> &r)
   {
     unsigned int n_inverted = 0;
     CellGradients<Cells> H(geometry), stress(geometry);
@@ -140,9 +158,32 @@ namespace softcell
     cells.for_each_point([&](const auto &point, std::size_t, const auto &weight) {
       const auto F = H.deformation_gradient(point, weight);
       n_inverted += Cells::count(!law.is_admissible(determinant(F)));
-      stress.add(point, weighted(law, weight).first_piola_stress(F));
+      const auto p = weight * pressure<Cells>(law, F);
+      stress.add(point, weighted(law, weight).first_piola_stress(F, p));
     });
     stress.scatter(cells, r);
+    return n_inverted;
+  }
+
+  /// Takes the pressures lambda v at u, by number of the point.
+  /// @return how many points are turned inside out.
+  template <class Cells, class Law, class Real>
+  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int
+  keep_pressures(const Cells &cells,
+                 const Law &law,
+                 const CellGeometry<Real> &geometry,
+                 const Components<const Real> &u,
+                 Real *const pressures)
+  {
+    unsigned int n_inverted = 0;
+    CellGradients<Cells> H(geometry);
+    H.gather(cells, u);
+    cells.for_each_point([&](const auto &point, const std::size_t number, const auto &weight) {
+      const auto F = H.deformation_gradient(point, weight);
+      n_inverted += Cells::count(!law.is_admissible(determinant(F)));
+      if constexpr (has_costly_pressure<Law>)
+        Cells::store(pressure<Cells>(law, F), pressures, number);
+    });
     return n_inverted;
   }
 
@@ -177,12 +218,12 @@ namespace softcell
   /// Adds the tangent at u times x.
   template <class Cells, class Law, class Real>
   [[gnu::flatten]] SOFTCELL_HOST_DEVICE void add_tangent_action(const Cells &cells,
-                                               const Law &law,
-                                               const CellGeometry<Real> &geometry,
-                                               const Components<const Real> &u,
-                                               const Real *pressures,
-                                               const Components<const Real> &x,
-                                               const Components<Real> &y)
+                                                                const Law &law,
+                                                                const CellGeometry<Real> &geometry,
+                                                                const Components<const Real> &u,
+                                                                const Real *pressures,
+                                                                const Components<const Real> &x,
+                                                                const Components<Real> &y)
   {
     CellGradients<Cells> dH(geometry), stress(geometry);
     dH.gather(cells, x);

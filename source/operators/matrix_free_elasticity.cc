@@ -4,6 +4,7 @@
 #include <softcell/operators/matrix_free_elasticity.h>
 
 #include "cell_kernels.h"
+#include "simd_logarithm.h"
 
 #include <softcell/base/exceptions.h>
 
@@ -30,6 +31,14 @@ namespace softcell
       static Number load(const Real *const packed, const std::size_t number = 0)
       {
         return Number(packed + number * W, stdx::vector_aligned);
+      }
+      static void store(const Number &value, Real *const packed, const std::size_t number)
+      {
+        value.copy_to(packed + number * W, stdx::vector_aligned);
+      }
+      static Number log1p(const Number &x)
+      {
+        return simd_log1p(x);
       }
       template <class Mask>
       static unsigned int count(const Mask &mask)
@@ -172,7 +181,7 @@ namespace softcell
 
     constexpr auto nothing_to_begin = [](const int) {};
 
-    /// Calls f(law, weight, F, number of the pack of points, layer) for all packs of points.
+    /// Calls f(law, weight, F, layer) for all packs of points.
     template <class Real, class F>
     void for_each_point(const UniformCells<Real> &cells,
                         const Material &material,
@@ -183,10 +192,9 @@ namespace softcell
                     [&](const auto &pack, const auto &law, const auto &geometry, const int layer) {
                       CellGradients<std::decay_t<decltype(pack)>> H(geometry);
                       H.gather(pack, components(u));
-                      pack.for_each_point(
-                        [&](const auto &point, const std::size_t number, const auto &weight) {
-                          f(law, weight, H.deformation_gradient(point, weight), number, layer);
-                        });
+                      pack.for_each_point([&](const auto &point, std::size_t, const auto &weight) {
+                        f(law, weight, H.deformation_gradient(point, weight), layer);
+                      });
                     });
     }
 
@@ -226,12 +234,11 @@ namespace softcell
     const unsigned int n_layers = cells_.nodes().n_cells()[2];
     std::vector<double> energies(n_layers, 0.);
     std::vector<unsigned int> n_inverted(n_layers, 0);
-    for_each_point(
-      cells_, material_, u,
-      [&](const auto &law, const auto &weight, const auto &F, std::size_t, const int layer) {
-        n_inverted[layer] += stdx::popcount(!law.is_admissible(determinant(F)));
-        energies[layer] += stdx::reduce(weight * law.energy(F));
-      });
+    for_each_point(cells_, material_, u,
+                   [&](const auto &law, const auto &weight, const auto &F, const int layer) {
+                     n_inverted[layer] += stdx::popcount(!law.is_admissible(determinant(F)));
+                     energies[layer] += stdx::reduce(weight * law.energy(F));
+                   });
     throw_if_inverted(n_inverted);
     return std::accumulate(energies.begin(), energies.end(), 0.);
   }
@@ -242,13 +249,12 @@ namespace softcell
     using Number      = typename SimdCells<Real>::Number;
     const double none = std::numeric_limits<double>::max();
     std::vector<double> smallest(cells_.nodes().n_cells()[2], none);
-    for_each_point(
-      cells_, material_, u,
-      [&](const auto &, const auto &weight, const auto &F, std::size_t, const int layer) {
-        Number J                            = determinant(F);
-        stdx::where(Number(weight) == 0, J) = std::numeric_limits<Real>::max();
-        smallest[layer]                     = std::min<double>(smallest[layer], stdx::hmin(J));
-      });
+    for_each_point(cells_, material_, u,
+                   [&](const auto &, const auto &weight, const auto &F, const int layer) {
+                     Number J                            = determinant(F);
+                     stdx::where(Number(weight) == 0, J) = std::numeric_limits<Real>::max();
+                     smallest[layer] = std::min<double>(smallest[layer], stdx::hmin(J));
+                   });
     return *std::min_element(smallest.begin(), smallest.end());
   }
 
@@ -270,14 +276,11 @@ namespace softcell
   {
     u_ = u;
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
-    for_each_point(
-      cells_, material_, u,
-      [&](const auto &law, const auto &, const auto &F, const std::size_t point, const int layer) {
-        n_inverted[layer] += stdx::popcount(!law.is_admissible(determinant(F)));
-        if constexpr (has_costly_pressure<std::decay_t<decltype(law)>>)
-          (law.lambda * law.volumetric_strain(F))
-            .copy_to(&pressures_[point * SimdCells<Real>::W], stdx::vector_aligned);
-      });
+    for_each_pack(cells_, material_, nothing_to_begin,
+                  [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
+                    n_inverted[layer] +=
+                      keep_pressures(cells, law, geometry, components(u), pressures_.data());
+                  });
     throw_if_inverted(n_inverted);
   }
 

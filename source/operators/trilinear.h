@@ -62,13 +62,16 @@ namespace softcell
       Number e[4];
       interpolate(d[0], d[1], e[0], e[1]);
       interpolate(d[2], d[3], e[2], e[3]);
-      interpolate(e[0], e[2], values_[0][0], values_[0][2]);
-      interpolate(e[1], e[3], values_[0][1], values_[0][3]);
-      interpolate(lower[1] - lower[0], lower[3] - lower[2], values_[1][0], values_[1][2]);
-      interpolate(upper[1] - upper[0], upper[3] - upper[2], values_[1][1], values_[1][3]);
-      interpolate(lower[2] - lower[0], lower[3] - lower[1], values_[2][0], values_[2][2]);
-      interpolate(upper[2] - upper[0], upper[3] - upper[1], values_[2][1], values_[2][3]);
-      multiply();
+      interpolate(e[0], e[2], values_[0][0], values_[0][2], scale_[0]);
+      interpolate(e[1], e[3], values_[0][1], values_[0][3], scale_[0]);
+      interpolate(lower[1] - lower[0], lower[3] - lower[2], values_[1][0], values_[1][2],
+                  scale_[1]);
+      interpolate(upper[1] - upper[0], upper[3] - upper[2], values_[1][1], values_[1][3],
+                  scale_[1]);
+      interpolate(lower[2] - lower[0], lower[3] - lower[1], values_[2][0], values_[2][2],
+                  scale_[2]);
+      interpolate(upper[2] - upper[0], upper[3] - upper[1], values_[2][1], values_[2][3],
+                  scale_[2]);
     }
 
     SOFTCELL_HOST_DEVICE const Number &derivative(const GaussPoint<Real> q, const int axis) const
@@ -89,10 +92,9 @@ namespace softcell
     /// evaluate(). Call it once.
     SOFTCELL_HOST_DEVICE void integrate(Corners<Number> &v)
     {
-      multiply();
       Number d[4], e[4];
-      interpolate(values_[0][0], values_[0][2], e[0], e[2]);
-      interpolate(values_[0][1], values_[0][3], e[1], e[3]);
+      interpolate(values_[0][0], values_[0][2], e[0], e[2], scale_[0]);
+      interpolate(values_[0][1], values_[0][3], e[1], e[3], scale_[0]);
       interpolate(e[0], e[1], d[0], d[1]);
       interpolate(e[2], e[3], d[2], d[3]);
       Number lower[4], upper[4];
@@ -125,25 +127,26 @@ namespace softcell
       upper = m + s * d;
     }
 
+    /// The same times a factor.
+    SOFTCELL_HOST_DEVICE static void
+    interpolate(const Number &a, const Number &b, Number &lower, Number &upper, const Real factor)
+    {
+      const Real s   = factor * GaussPoint<Real>::distance;
+      const Number m = factor * (a + b), d = b - a;
+      lower = m - s * d;
+      upper = m + s * d;
+    }
+
     /// What the derivatives along y and z at the points of lower or upper x add to four corners.
     SOFTCELL_HOST_DEVICE void integrate_side(Number (&corners)[4], const int x) const
     {
       Number y0, y1, z0, z1;
-      interpolate(values_[1][x], values_[1][x + 2], y0, y1);
-      interpolate(values_[2][x], values_[2][x + 2], z0, z1);
+      interpolate(values_[1][x], values_[1][x + 2], y0, y1, scale_[1]);
+      interpolate(values_[2][x], values_[2][x + 2], z0, z1, scale_[2]);
       corners[0] = -y0 - z0;
       corners[1] = y0 - z1;
       corners[2] = z0 - y1;
       corners[3] = y1 + z1;
-    }
-
-    SOFTCELL_HOST_DEVICE void multiply()
-    {
-#pragma GCC unroll 3
-      for (int axis = 0; axis < 3; ++axis)
-#pragma GCC unroll 4
-        for (int i = 0; i < 4; ++i)
-          values_[axis][i] *= scale_[axis];
     }
 
     const Real *scale_;

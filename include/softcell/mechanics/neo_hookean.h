@@ -87,8 +87,12 @@ namespace softcell
       template <class Change>
       SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const Matrix3<Change> &dF) const
       {
-        const Change divergence = lambda * double_contraction(F_inv_T, dF);
-        return mu * dF + factor * (F_inv_T * transpose(dF) * F_inv_T) + divergence * F_inv_T;
+        const Matrix3<Change> B = transpose(dF) * F_inv_T; // of which the trace is F^-T : dF
+        Matrix3<Change> C       = factor * B;
+        const Change pressure   = lambda * trace(B);
+        for (int A = 0; A < 3; ++A)
+          C(A, A) += pressure;
+        return mu * dF + F_inv_T * C;
       }
 
       /// With g = dN/dX and its push forward h = F^-T g, row a of dP is

@@ -119,14 +119,16 @@ namespace softcell
   template <class Number>
   SOFTCELL_HOST_DEVICE Matrix3<Number> inverse(const Matrix3<Number> &A)
   {
-    const Number s = Number(1) / determinant(A);
-    Matrix3<Number> B;
+    Matrix3<Number> B; // of cofactors, first
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
       {
         const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        B(j, i) = s * (A(i1, j1) * A(i2, j2) - A(i1, j2) * A(i2, j1));
+        B(j, i) = A(i1, j1) * A(i2, j2) - A(i1, j2) * A(i2, j1);
       }
+    const Number s = Number(1) / (A(0, 0) * B(0, 0) + A(0, 1) * B(1, 0) + A(0, 2) * B(2, 0));
+    for (Number &b : B.entries)
+      b = s * b;
     return B;
   }
 } // namespace softcell
