@@ -6,6 +6,8 @@
 
 #include <softcell/mechanics/laws.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace softcell
@@ -165,7 +167,19 @@ namespace softcell
     return n_inverted;
   }
 
+  /// A lower bound of the smallest eigenvalue of a positive definite matrix, good to a few
+  /// percent and exact for the identity: Laguerre's step from 0 on its polynomial.
+  template <class Number>
+  SOFTCELL_HOST_DEVICE Number smallest_eigenvalue(const Matrix3<Number> &A)
+  {
+    using std::max;
+    using std::sqrt;
+    const Number I1 = trace(A), I2 = (I1 * I1 - double_contraction(A, A)) / 2, I3 = determinant(A);
+    return 3 * I3 / (I2 + 2 * sqrt(max(I2 * I2 - 3 * I1 * I3, Number(0))));
+  }
+
   /// Takes the pressures lambda v at u, by number of the point.
+  /// @param is_tensile  keeps them where the tangent is positive semi-definite, see Stresses.
   /// @return how many points are turned inside out.
   template <class Cells, class Law, class Real>
   [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int
@@ -173,8 +187,11 @@ namespace softcell
                  const Law &law,
                  const CellGeometry<Real> &geometry,
                  const Components<const Real> &u,
+                 const bool is_tensile,
                  Real *const pressures)
   {
+    using std::max;
+    using std::min;
     unsigned int n_inverted = 0;
     CellGradients<Cells> H(geometry);
     H.gather(cells, u);
@@ -182,7 +199,15 @@ namespace softcell
       const auto F = H.deformation_gradient(point, weight);
       n_inverted += Cells::count(!law.is_admissible(determinant(F)));
       if constexpr (has_costly_pressure<Law>)
-        Cells::store(pressure<Cells>(law, F), pressures, number);
+      {
+        auto p = pressure<Cells>(law, F);
+        if (is_tensile)
+        {
+          const auto limit = law.mu * smallest_eigenvalue(right_cauchy_green(F));
+          p                = min(max(p, law.mu - limit), law.mu + limit);
+        }
+        Cells::store(p, pressures, number);
+      }
     });
     return n_inverted;
   }

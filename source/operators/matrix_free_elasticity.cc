@@ -272,14 +272,15 @@ namespace softcell
   }
 
   template <class Real>
-  void MatrixFreeElasticity<Real>::set_state(const LatticeVector<Real> &u)
+  void MatrixFreeElasticity<Real>::set_state(const LatticeVector<Real> &u, const Stresses stresses)
   {
     u_ = u;
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
     for_each_pack(cells_, material_, nothing_to_begin,
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
                     n_inverted[layer] +=
-                      keep_pressures(cells, law, geometry, components(u), pressures_.data());
+                      keep_pressures(cells, law, geometry, components(u),
+                                     stresses == Stresses::tensile, pressures_.data());
                   });
     throw_if_inverted(n_inverted);
   }

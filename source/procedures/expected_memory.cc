@@ -13,14 +13,18 @@ namespace softcell
 {
   namespace
   {
+    /// The tangent included.
     double memory_of_solver(const LinearSolverParameters &solver, const ExpectedSize &size)
     {
-      const double copy = 108 * size.couplings; // of the tangent, for Trilinos or PETSc
-      if (solver.solver == "direct")            // the factors of nested dissection grow as n^(4/3)
-        return copy + 72 * size.couplings + 1200 * std::pow(size.nodes, 4. / 3);
+      if (solver.is_matrix_free()) // fields on all of the grid, and the body's nodes and points
+        return 350 * size.grid_cells + 300 * size.nodes;
+      const double tangent = 90 * size.couplings;
+      const double copy    = 108 * size.couplings; // of the tangent, for Trilinos or PETSc
+      if (solver.solver == "direct") // the factors of nested dissection grow as n^(4/3)
+        return tangent + copy + 72 * size.couplings + 1200 * std::pow(size.nodes, 4. / 3);
       if (solver.preconditioner == "AMG")
-        return copy + (solver.backend == "PETSc" ? 17e3 : 9e3) * size.nodes;
-      return solver.preconditioner == "incomplete Cholesky" ? 2 * copy : 0;
+        return tangent + copy + (solver.backend == "PETSc" ? 17e3 : 9e3) * size.nodes;
+      return tangent + (solver.preconditioner == "incomplete Cholesky" ? 2 * copy : 0);
     }
 
     /// The entries that say how many unknowns there are.
@@ -49,8 +53,8 @@ namespace softcell
   {
     const DiscretizationParameters &discretization = parameters.discretization;
     ExpectedMemory memory;
-    memory.shared = 500 * size.grid_cells + 90 * size.couplings + 500 * size.nodes +
-                    memory_of_solver(parameters.linear_solver, size);
+    memory.shared =
+      500 * size.grid_cells + 500 * size.nodes + memory_of_solver(parameters.linear_solver, size);
     if (discretization.method == "finite cell") // its leaves, and which of their points are inside
       memory.shared += size.cut_cells * std::pow(4, discretization.cut.levels) *
                        (10 + std::pow(discretization.degree + 1, 3) / 5);

@@ -3,26 +3,54 @@
 
 #include <softcell/procedures/model.h>
 
+#include <softcell/base/exceptions.h>
+
 #include <algorithm>
 
 namespace softcell
 {
   namespace
   {
-    std::vector<std::vector<unsigned int>>
-    couplings(const Elasticity &elasticity, const Stabilization &stabilization, const Loads &loads)
-    {
-      std::vector<std::vector<unsigned int>> lists = elasticity.couplings();
-      stabilization.add_couplings(lists);
-      for (const auto &force : loads.forces)
-        force->add_couplings(lists);
-      return lists;
-    }
-
     bool is_symmetric(const Loads &loads)
     {
       return std::all_of(loads.forces.begin(), loads.forces.end(),
                          [](const auto &force) { return force->has_symmetric_tangent(); });
+    }
+
+    std::unique_ptr<LinearSolver> make_solver(const Discretization &discretization,
+                                              const std::vector<Material> &materials,
+                                              const bool has_projection,
+                                              const Loads &loads,
+                                              const LinearSolverParameters &parameters)
+    {
+      if (!parameters.is_matrix_free())
+        return make_linear_solver(parameters, is_symmetric(loads));
+      const std::string place = "Solver/Preconditioner = geometric multigrid ";
+      if (has_projection)
+        throw BadInput(place + "knows no volumetric projection; give 'Discretization/Volumetric "
+                               "projection = false' or another preconditioner.");
+      if (!is_symmetric(loads))
+        throw BadInput(place + "needs symmetric tangents, which a pressure has not; give another "
+                               "preconditioner.");
+      return std::make_unique<MatrixFreeSolver>(discretization, materials[0],
+                                                loads.imposed.unknowns(), parameters);
+    }
+
+    /// @param with_body whether the matrix has the body's own stiffness.
+    std::vector<std::vector<unsigned int>> couplings(const Elasticity &elasticity,
+                                                     const Stabilization &stabilization,
+                                                     const Loads &loads,
+                                                     const bool with_body)
+    {
+      std::vector<std::vector<unsigned int>> lists;
+      if (with_body)
+      {
+        lists = elasticity.couplings();
+        stabilization.add_couplings(lists);
+      }
+      for (const auto &force : loads.forces)
+        force->add_couplings(lists);
+      return lists;
     }
   } // namespace
 
@@ -36,8 +64,11 @@ namespace softcell
         elasticity_(discretization, materials, has_projection),
         stabilization_(discretization, materials),
         loads_(loads),
-        tangent_(discretization.partitioner(), couplings(elasticity_, stabilization_, loads)),
-        linear_solver_(make_linear_solver(linear_solver, is_symmetric(loads))),
+        linear_solver_(
+          make_solver(discretization, materials, has_projection, loads, linear_solver)),
+        matrix_free_(dynamic_cast<MatrixFreeSolver *>(linear_solver_.get())),
+        tangent_(discretization.partitioner(),
+                 couplings(elasticity_, stabilization_, loads, matrix_free_ == nullptr)),
         timers_(timers),
         has_projection_(has_projection),
         internal_(discretization.make_vector()),
@@ -101,8 +132,13 @@ namespace softcell
   {
     internal = 0;
     external = 0;
-    elasticity_.add_residual(u, internal, base);
-    stabilization_.add_residual(u, internal);
+    if (matrix_free_ != nullptr)
+      matrix_free_->add_internal_force(u, internal);
+    else
+    {
+      elasticity_.add_residual(u, internal, base);
+      stabilization_.add_residual(u, internal);
+    }
     for (const auto &force : loads_.forces)
       force->add_residual(u, load_factor_, external);
     internal.compress(dealii::VectorOperation::add);
@@ -126,8 +162,13 @@ namespace softcell
     {
       const Timers::Scope scope(timers_, "assembly");
       tangent_.set_zero();
-      elasticity_.add_tangent(u, tangent_, has_base_ ? &base_ : nullptr);
-      stabilization_.add_tangent(tangent_);
+      if (matrix_free_ != nullptr)
+        matrix_free_->set_state(u);
+      else
+      {
+        elasticity_.add_tangent(u, tangent_, has_base_ ? &base_ : nullptr);
+        stabilization_.add_tangent(tangent_);
+      }
       if (has_projection_)
       {
         base_     = u;
@@ -143,8 +184,13 @@ namespace softcell
       Vector missing = discretization_.make_vector();
       loads_.imposed.missing(u, load_factor_, missing);
       tangent_.vmult(lift_, missing);
-      diagonal_ = tangent_.diagonal().l1_norm() / lift_.size(); // the mean
-      tangent_.constrain(loads_.imposed.unknowns(), diagonal_);
+      if (matrix_free_ != nullptr)
+        matrix_free_->add_product(lift_, missing);
+      else
+      {
+        diagonal_ = tangent_.diagonal().l1_norm() / lift_.size(); // the mean
+        tangent_.constrain(loads_.imposed.unknowns(), diagonal_);
+      }
     }
     linear_solver_->set_matrix(tangent_, discretization_.node_positions(),
                                loads_.imposed.unknowns());

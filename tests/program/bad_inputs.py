@@ -70,6 +70,8 @@ def image(file, *more):
     return ["Geometry/Type = image", f"Geometry/File = {file}", "Geometry/Scale = 0.01", *more]
 
 
+MULTIGRID = ["Solver/Preconditioner = geometric multigrid", "Discretization/Method = weighted cell"]
+
 # Name of the mistake; settings on the command line; text of the parameter file (None: the bar, @BAR@ stands for it);
 # parts of the message.
 BAD_INPUTS = [
@@ -226,6 +228,21 @@ BAD_INPUTS = [
      ["Refinement steps = 1", "tetrahedra", "background grids"]),
     ("refinement of a higher degree", ["Discretization/Degree = 2", "Discretization/Refinement steps = 1"], None,
      ["Refinement steps = 1", "degree 2"]),
+    ("multigrid of finite cells of degree 2", [*MULTIGRID, "Discretization/Degree = 2"], None,
+     ["geometric multigrid", "Degree = 1"]),
+    ("multigrid of tetrahedra", [*MULTIGRID, "Discretization/Method = tetrahedra"], None,
+     ["geometric multigrid", "background grid"]),
+    ("multigrid on a refined grid", [*MULTIGRID, "Discretization/Surface refinement = 1"], None,
+     ["geometric multigrid", "Surface refinement = 0"]),
+    ("multigrid with a fictitious material", [*MULTIGRID, "Discretization/Alpha = 1e-6"], None,
+     ["geometric multigrid", "Alpha = 0"]),
+    ("multigrid with a ghost penalty", [*MULTIGRID, "Discretization/Ghost penalty = 0.1"], None,
+     ["geometric multigrid", "Ghost penalty = 0"]),
+    ("multigrid with a projection", [*MULTIGRID, "Discretization/Volumetric projection = true"], None,
+     ["geometric multigrid", "Volumetric projection = false"]),
+    ("multigrid under a pressure", [*MULTIGRID, "Loads/top = pressure 100"], None,
+     ["geometric multigrid", "pressure"]),
+    ("multigrid of two materials", image("two.nrrd", *MULTIGRID), None, ["geometric multigrid", "one material"]),
     ("grid too coarse", ["Discretization/Cells = 1", "Discretization/Smallest volume fraction = 0.9"], None,
      ["Discretization/Cells = 1", "coarse"]),
     ("material of no part of the surface", surface("good.off"),

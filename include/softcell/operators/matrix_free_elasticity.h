@@ -7,6 +7,16 @@
 
 namespace softcell
 {
+  /// Which stresses a tangent knows.
+  enum class Stresses
+  {
+    all,
+    /// Of Neo-Hookean, the factor mu - lambda ln J is kept between -mu s^2 and mu s^2, with s the
+    /// smallest stretch: in tension it is there by itself, and elsewhere this leaves out the
+    /// compressive stress. So the tangent is positive semi-definite at every point.
+    tensile
+  };
+
   /// What Elasticity does, on the cells of a uniform grid, by SIMD packs of cells and threads.
   ///
   /// Nodes without cells get 0. Imposed displacements are the caller's: he sets what belongs to
@@ -30,7 +40,7 @@ namespace softcell
 
     /// Takes the displacement at which the tangent is formed; before, it is that at u = 0.
     /// @throws InvertedPoint
-    void set_state(const LatticeVector<Real> &u);
+    void set_state(const LatticeVector<Real> &u, Stresses stresses = Stresses::all);
 
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const;

@@ -8,6 +8,7 @@
 #include <softcell/operators/elasticity.h>
 #include <softcell/operators/stabilization.h>
 #include <softcell/solvers/linear_solver.h>
+#include <softcell/solvers/matrix_free_solver.h>
 #include <softcell/solvers/newton.h>
 
 #include <memory>
@@ -82,8 +83,9 @@ namespace softcell
     Elasticity elasticity_;
     Stabilization stabilization_;
     const Loads &loads_;
-    BlockMatrix tangent_;
     std::unique_ptr<LinearSolver> linear_solver_;
+    MatrixFreeSolver *matrix_free_; // the linear solver, if it makes do without a matrix
+    BlockMatrix tangent_;           // then of the loads alone
     Timers &timers_;
     bool has_projection_;
     bool has_base_      = false; // base_ is of this load factor

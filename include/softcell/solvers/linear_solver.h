@@ -14,11 +14,17 @@ namespace softcell
 {
   struct LinearSolverParameters
   {
-    std::string solver          = "CG";       // CG, direct (MUMPS)
-    std::string preconditioner  = "AMG";      // none, Jacobi, incomplete Cholesky, AMG
+    std::string solver = "CG"; // CG, direct (MUMPS)
+    std::string preconditioner =
+      "AMG"; // none, Jacobi, incomplete Cholesky, AMG, geometric multigrid
     std::string backend         = "Trilinos"; // Trilinos, PETSc
     double tolerance            = 1e-4;       // relative to |b|
     unsigned int max_iterations = 5000;
+
+    bool is_matrix_free() const
+    {
+      return solver == "CG" && preconditioner == "geometric multigrid";
+    }
 
     /// Declares the entries in the section that is open, `Solver`.
     void add_parameters(dealii::ParameterHandler &prm);

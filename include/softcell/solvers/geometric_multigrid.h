@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Multigrid on a uniform grid and its coarser ones, without a matrix.
+#pragma once
+
+#include <softcell/operators/lattice_tangent.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace softcell
+{
+  /// A symmetric positive definite operator that is near to the inverse of an elastic tangent: a
+  /// V-cycle over a grid of cells and those with twice, four times, ... the edges.
+  ///
+  /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
+  /// one, and the supports as Galerkin's product. The tangents leave out stresses that could make
+  /// them indefinite, see MatrixFreeElasticity::set_state(). Where a coarse cell is inside out, its
+  /// grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
+  /// tangent at rest is the same.
+  ///
+  /// The smoother is Chebyshev's polynomial of the fourth kind over the inverted diagonal blocks,
+  /// before and after. Source: Lottes, Optimal polynomial smoothers for multigrid V-cycles (2023).
+  template <class Real>
+  class GeometricMultigrid
+  {
+  public:
+    /// @param held  entries of a LatticeVector whose unknowns are not free.
+    GeometricMultigrid(const CellLattice &cells,
+                       const Material &material,
+                       const std::vector<std::size_t> &held,
+                       unsigned int degree = 3);
+
+    ~GeometricMultigrid();
+
+    /// Takes the displacement at which the tangents are formed, and the supports' tangent.
+    /// @throws InvertedPoint
+    void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});
+
+    /// y = K^-1 x, nearly, for an x that is 0 in unknowns that are not free.
+    void vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const;
+
+    const LatticeUnknowns &unknowns() const;
+
+    /// Units: byte
+    std::size_t memory() const;
+
+  private:
+    struct Level;
+
+    void estimate_eigenvalue(Level &level) const;
+    void invert_coarsest();
+    void smooth(Level &level) const;
+    void cycle(unsigned int level) const;
+
+    unsigned int degree_;
+    std::vector<std::unique_ptr<Level>> levels_; // from the finest on
+    std::vector<std::size_t> coarsest_entries_;  // of the coarsest grid's free unknowns
+    dealii::FullMatrix<double> coarsest_inverse_;
+  };
+} // namespace softcell

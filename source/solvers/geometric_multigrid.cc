@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The V-cycle and its smoother.
+
+#include <softcell/solvers/geometric_multigrid.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/solvers/lanczos.h>
+
+#include <deal.II/lac/vector.h>
+
+namespace softcell
+{
+  namespace
+  {
+    /// Unknowns of the grid that is solved exactly, at most.
+    constexpr std::size_t n_coarsest = 400;
+
+    Material definite(const Material &material)
+    {
+      return material.visit([](const auto &law) {
+        const bool is_linear = std::is_same_v<std::decay_t<decltype(law)>, LinearElastic<>>;
+        const double young   = law.mu * (3 * law.lambda + 2 * law.mu) / (law.lambda + law.mu);
+        return Material(is_linear ? "linear" : "Neo-Hookean", young,
+                        law.lambda / (2 * (law.lambda + law.mu)));
+      });
+    }
+  } // namespace
+
+  template <class Real>
+  struct GeometricMultigrid<Real>::Level
+  {
+    /// @param own  the level's free unknowns
+    Level(const CellLattice &cells, const Material &material, LatticeUnknowns own)
+        : unknowns(std::move(own)),
+          tangent(cells, material, unknowns),
+          inverse_diagonal(cells.nodes),
+          x(cells.nodes),
+          r(cells.nodes),
+          d(cells.nodes),
+          Kd(cells.nodes)
+    {
+    }
+
+    LatticeUnknowns unknowns;
+    LatticeTangent<Real> tangent;
+    LatticeBlocks<Real> inverse_diagonal;
+    Real largest_eigenvalue = 1; // of the inverse diagonal times the tangent
+    LatticeVector<Real> x, r, d, Kd;
+
+    /// d = a d + b D^-1 r
+    void precondition(const Real a, const Real b)
+    {
+      unknowns.for_each_run([&](const std::size_t begin, const std::size_t end) {
+        const Real *D[6], *const r_x = r.component(0), *const r_y = r.component(1),
+                                 *const r_z = r.component(2);
+        Real *const d_x = d.component(0), *const d_y = d.component(1), *const d_z = d.component(2);
+        for (unsigned int k = 0; k < 6; ++k)
+          D[k] = inverse_diagonal.component(k);
+#pragma omp simd
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Real x_i = b * r_x[i], y_i = b * r_y[i], z_i = b * r_z[i];
+          d_x[i] = a * d_x[i] + D[0][i] * x_i + D[5][i] * y_i + D[4][i] * z_i;
+          d_y[i] = a * d_y[i] + D[5][i] * x_i + D[1][i] * y_i + D[3][i] * z_i;
+          d_z[i] = a * d_z[i] + D[4][i] * x_i + D[3][i] * y_i + D[2][i] * z_i;
+        }
+      });
+    }
+
+    /// x += d, r -= K d
+    void step()
+    {
+      tangent.vmult(Kd, d);
+      unknowns.for_each(x, d, [](Real &x_i, const Real d_i) { x_i += d_i; });
+      unknowns.for_each(r, Kd, [](Real &r_i, const Real Kd_i) { r_i -= Kd_i; });
+    }
+  };
+
+  template <class Real>
+  GeometricMultigrid<Real>::GeometricMultigrid(const CellLattice &cells,
+                                               const Material &material,
+                                               const std::vector<std::size_t> &held,
+                                               const unsigned int degree)
+      : degree_(degree)
+  {
+    const Material law = definite(material);
+    levels_.push_back(std::make_unique<Level>(cells, law, LatticeUnknowns(cells, held)));
+    CellLattice coarse = cells;
+    while (levels_.back()->unknowns.free_entries().size() > n_coarsest)
+    {
+      coarse = coarse_cells(coarse);
+      levels_.push_back(
+        std::make_unique<Level>(coarse, law, LatticeUnknowns(coarse, levels_.back()->unknowns)));
+    }
+    coarsest_entries_ = levels_.back()->unknowns.free_entries();
+  }
+
+  template <class Real>
+  GeometricMultigrid<Real>::~GeometricMultigrid() = default;
+
+  template <class Real>
+  const LatticeUnknowns &GeometricMultigrid<Real>::unknowns() const
+  {
+    return levels_[0]->unknowns;
+  }
+
+  template <class Real>
+  void GeometricMultigrid<Real>::set_state(const LatticeVector<Real> &u,
+                                           LatticeMatrix<Real> supports)
+  {
+    LatticeVector<Real> state = u;
+    levels_[0]->tangent.elasticity().set_state(state, Stresses::tensile);
+    levels_[0]->tangent.supports() = std::move(supports);
+    for (unsigned int l = 1; l < levels_.size(); ++l)
+    {
+      const Level &fine = *levels_[l - 1];
+      Level &coarse     = *levels_[l];
+      LatticeVector<Real> coarse_state(coarse.unknowns.nodes());
+      coarse.unknowns.take(fine.unknowns, state, coarse_state);
+      try
+      {
+        coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
+      }
+      catch (const InvertedPoint &)
+      {
+        const LatticeVector<Real> rest(coarse.unknowns.nodes());
+        coarse.tangent.elasticity().set_state(rest, Stresses::tensile);
+      }
+      coarse.tangent.supports() = LatticeMatrix<Real>(levels_[l - 1]->tangent.supports(),
+                                                      fine.unknowns, coarse.unknowns.nodes());
+      state                     = std::move(coarse_state);
+    }
+    for (unsigned int l = 0; l + 1 < levels_.size(); ++l)
+    {
+      levels_[l]->tangent.inverse_diagonal(levels_[l]->inverse_diagonal);
+      estimate_eigenvalue(*levels_[l]);
+    }
+    invert_coarsest();
+  }
+
+  /// By a few steps of conjugate gradients.
+  template <class Real>
+  void GeometricMultigrid<Real>::estimate_eigenvalue(Level &level) const
+  {
+    constexpr unsigned int n_steps  = 8;
+    constexpr Real margin           = 1.1; // for what is missing after as many
+    const LatticeUnknowns &unknowns = level.unknowns;
+    LatticeVector<Real> p(unknowns.nodes());
+    level.r             = p;
+    unsigned int random = 1; // something with a share in every eigenvector
+    for (const std::size_t entry : unknowns.free_entries())
+      level.r.entries()[entry] =
+        Real(random = 1664525 * random + 1013904223) / Real(4294967296.) - Real(0.5);
+
+    LanczosMatrix lanczos;
+    double rz_before = 1;
+    for (unsigned int step = 0; step < n_steps; ++step)
+    {
+      level.precondition(0, 1);
+      const double rz  = unknowns.dot(level.r, level.d);
+      const Real share = step > 0 ? rz / rz_before : 0.;
+      unknowns.for_each(p, level.d, [&](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
+      level.tangent.vmult(level.Kd, p);
+      const double curvature = unknowns.dot(p, level.Kd) / rz;
+      unknowns.for_each(level.r, level.Kd,
+                        [&](Real &r_i, const Real Kp_i) { r_i -= Kp_i / Real(curvature); });
+      lanczos.add(curvature, share);
+      rz_before = rz;
+    }
+    level.largest_eigenvalue = margin * lanczos.extreme_eigenvalues().second;
+  }
+
+  template <class Real>
+  void GeometricMultigrid<Real>::invert_coarsest()
+  {
+    Level &level        = *levels_.back();
+    const std::size_t n = coarsest_entries_.size();
+    coarsest_inverse_.reinit(n, n);
+    level.d = LatticeVector<Real>(level.unknowns.nodes());
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      level.d.entries()[coarsest_entries_[j]] = 1;
+      level.tangent.vmult(level.Kd, level.d);
+      level.d.entries()[coarsest_entries_[j]] = 0;
+      for (std::size_t i = 0; i < n; ++i)
+        coarsest_inverse_(i, j) = level.Kd.entries()[coarsest_entries_[i]];
+    }
+    coarsest_inverse_.symmetrize();
+    coarsest_inverse_.gauss_jordan();
+  }
+
+  /// Adds to x what lessens r = b - K x.
+  template <class Real>
+  void GeometricMultigrid<Real>::smooth(Level &level) const
+  {
+    const Real scale = 1 / level.largest_eigenvalue;
+    for (unsigned int k = 0; k < degree_; ++k)
+    {
+      level.precondition(k == 0 ? 0 : Real(2 * k - 1.) / (2 * k + 3),
+                         scale * (8 * k + 4) / (2 * k + 3));
+      level.step();
+    }
+  }
+
+  /// Adds to x of a level what lessens its r.
+  template <class Real>
+  void GeometricMultigrid<Real>::cycle(const unsigned int l) const
+  {
+    Level &level = *levels_[l];
+    if (l + 1 == levels_.size())
+    {
+      const std::size_t n = coarsest_entries_.size();
+      dealii::Vector<double> b(n), solution(n);
+      for (std::size_t i = 0; i < n; ++i)
+        b[i] = level.r.entries()[coarsest_entries_[i]];
+      coarsest_inverse_.vmult(solution, b);
+      for (std::size_t i = 0; i < n; ++i)
+        level.x.entries()[coarsest_entries_[i]] = solution[i];
+      return;
+    }
+    Level &coarse = *levels_[l + 1];
+    smooth(level);
+    coarse.unknowns.sum_up(level.r, coarse.r);
+    std::fill(coarse.x.entries().begin(), coarse.x.entries().end(), Real(0));
+    cycle(l + 1);
+    level.unknowns.interpolate(coarse.x, level.d);
+    level.step();
+    smooth(level);
+  }
+
+  template <class Real>
+  void GeometricMultigrid<Real>::vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const
+  {
+    Level &level = *levels_[0];
+    level.r      = x;
+    std::fill(level.x.entries().begin(), level.x.entries().end(), Real(0));
+    cycle(0);
+    y = level.x;
+  }
+
+  template <class Real>
+  std::size_t GeometricMultigrid<Real>::memory() const
+  {
+    std::size_t bytes = coarsest_inverse_.memory_consumption();
+    for (const auto &level : levels_)
+      bytes += level->tangent.memory() + level->unknowns.nodes().size() * (18 * sizeof(Real) + 1);
+    return bytes;
+  }
+
+  template class GeometricMultigrid<double>;
+  template class GeometricMultigrid<float>;
+} // namespace softcell

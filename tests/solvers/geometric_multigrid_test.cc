@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The V-cycle as an operator, and how few iterations it leaves.
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/methods.h>
+#include <softcell/solvers/geometric_multigrid.h>
+#include <softcell/solvers/matrix_free_solver.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace softcell;
+
+  double volume(const CellLattice &cells)
+  {
+    double sum = 0;
+    for (const GaussCell &cell : cells.gauss_cells)
+      sum = std::accumulate(cell.weights.begin(), cell.weights.end(), sum);
+    for (const PointCell &cell : cells.point_cells)
+      sum = std::accumulate(cell.weights.begin(), cell.weights.end(), sum);
+    return sum;
+  }
+
+  /// A body held at z = 0.
+  struct HeldBody
+  {
+    /// @param n  cells along the cylinder of length 3 and radius 0.5, at any place across.
+    HeldBody(const std::string &type,
+             const unsigned int n,
+             const std::string &method = "weighted cell")
+    {
+      GeometryParameters geometry;
+      geometry.type   = type;
+      geometry.radius = 0.5;
+      geometry.length = 3;
+      std::vector<std::string> remarks;
+      body = make_body(geometry, remarks);
+      DiscretizationParameters parameters;
+      parameters.method         = method;
+      parameters.grid.cell_size = 3. / n;
+      parameters.cut.levels     = 3;
+      discretization = make_discretization(parameters, geometry, *body, MPI_COMM_SELF, remarks);
+      cells          = std::make_unique<CellLattice>(cell_lattice(*discretization));
+      const double cell_size = cells->spacing[2];
+      for (unsigned int node = 0; node < discretization->n_owned_nodes(); ++node)
+        if (discretization->node_positions()[node][2] < 0.01 * cell_size)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            constrained.push_back(3 * node + c);
+            held.push_back(c * cells->nodes.size() + cells->entries[node]);
+          }
+    }
+
+    /// Bends it along x and stretches it by a part along z; tapers it.
+    Vector bent(const double amplitude, const double stretch) const
+    {
+      Vector u = discretization->make_vector();
+      for (unsigned int node = 0; node < discretization->n_owned_nodes(); ++node)
+      {
+        const Point &X                = discretization->node_positions()[node];
+        u.local_element(3 * node)     = amplitude * X[2] * X[2];
+        u.local_element(3 * node + 2) = stretch * X[2] - 2 * amplitude * X[2] * X[0];
+      }
+      return u;
+    }
+
+    std::unique_ptr<Body> body;
+    std::unique_ptr<Discretization> discretization;
+    std::unique_ptr<CellLattice> cells;
+    std::vector<unsigned int> constrained;
+    std::vector<std::size_t> held;
+  };
+
+  /// Of conjugate gradients at a displacement, with a force across that is the same everywhere.
+  unsigned int iterations(const HeldBody &body,
+                          const Material &material,
+                          const Vector &u,
+                          const double tolerance = 1e-6)
+  {
+    LinearSolverParameters parameters;
+    parameters.tolerance      = tolerance;
+    parameters.max_iterations = 200;
+    MatrixFreeSolver solver(*body.discretization, material, body.constrained, parameters);
+    solver.set_state(u);
+    const BlockMatrix no_supports(body.discretization->partitioner(), {});
+    solver.set_matrix(no_supports, {}, {});
+    Vector b = body.discretization->make_vector(), x(b);
+    for (unsigned int node = 0; node < body.discretization->n_owned_nodes(); ++node)
+      b.local_element(3 * node) = 1;
+    return solver.solve(x, b);
+  }
+
+  template <class Real>
+  LatticeVector<Real> random_field(const LatticeUnknowns &unknowns, unsigned int seed)
+  {
+    LatticeVector<Real> x(unknowns.nodes());
+    for (const std::size_t entry : unknowns.free_entries())
+      x.entries()[entry] = (seed = 1664525 * seed + 1013904223) / 4294967296. - 0.5;
+    return x;
+  }
+
+  TEST(GeometricMultigrid, CoarseCellsKeepTheVolume)
+  {
+    for (const std::string method : {"weighted cell", "moment fitting"})
+      for (const unsigned int n : {17, 24})
+      {
+        const HeldBody body("sphere", n, method);
+        const double exact  = volume(*body.cells);
+        CellLattice coarser = *body.cells;
+        while (coarser.nodes.n_cells() != std::array<int, 3>{{1, 1, 1}})
+        {
+          coarser = coarse_cells(coarser);
+          EXPECT_NEAR(volume(coarser), exact, 1e-13 * exact);
+        }
+        EXPECT_EQ(coarser.gauss_cells.size(), 1U);
+      }
+  }
+
+  // Sums up to each coarse node what interpolation takes from it.
+  TEST(GeometricMultigrid, TransferIsItsTransposeAndExactForLinearFunctions)
+  {
+    const HeldBody body("sphere", 20);
+    const LatticeUnknowns fine(*body.cells, {});
+    const CellLattice cells = coarse_cells(*body.cells);
+    const LatticeUnknowns coarse(cells, fine);
+    const auto y = random_field<double>(fine, 1), X = random_field<double>(coarse, 2);
+    LatticeVector<double> x(fine.nodes()), Y(coarse.nodes());
+    fine.interpolate(X, x);
+    coarse.sum_up(y, Y);
+    EXPECT_NEAR(fine.dot(x, y), coarse.dot(X, Y),
+                1e-13 * std::sqrt(fine.dot(x, x) * fine.dot(y, y)));
+
+    // u = place along x, then y, then z, in cells
+    const auto fill = [](LatticeVector<double> &u, const double edge) {
+      const NodeLattice &nodes = u.lattice();
+      for (int k = 0; k <= nodes.n_cells()[2]; ++k)
+        for (int j = 0; j <= nodes.n_cells()[1]; ++j)
+          for (int i = 0; i <= nodes.n_cells()[0]; ++i)
+          {
+            const std::size_t node = nodes.entry(i, j, k);
+            u.component(0)[node]   = edge * i;
+            u.component(1)[node]   = edge * j;
+            u.component(2)[node]   = edge * k;
+          }
+    };
+    LatticeVector<double> exact(fine.nodes()), exact_coarse(coarse.nodes()), taken(coarse.nodes());
+    fill(exact, 1);
+    fill(exact_coarse, 2);
+    fine.interpolate(exact_coarse, x);
+    for (const std::size_t entry : fine.free_entries())
+      EXPECT_NEAR(x.entries()[entry], exact.entries()[entry], 1e-12);
+    coarse.take(fine, exact, taken);
+    for (const std::size_t entry : coarse.free_entries())
+      EXPECT_NEAR(taken.entries()[entry], exact_coarse.entries()[entry], 1e-12);
+  }
+
+  TEST(GeometricMultigrid, IsSymmetricAndPositiveDefinite)
+  {
+    const HeldBody body("cylinder", 19);
+    GeometricMultigrid<double> multigrid(*body.cells, Material("Neo-Hookean", 5000, 0.4),
+                                         body.held);
+    const LatticeUnknowns &unknowns = multigrid.unknowns();
+    LatticeVector<double> u(unknowns.nodes());
+    for (const double stretch : {0., -0.2}) // compressed, where the tangent itself is indefinite
+    {
+      copy(body.bent(0.02, stretch), body.cells->entries, u);
+      multigrid.set_state(u);
+      LatticeVector<double> Mx(unknowns.nodes()), My(unknowns.nodes());
+      for (unsigned int seed = 0; seed < 5; ++seed)
+      {
+        const auto x = random_field<double>(unknowns, seed),
+                   y = random_field<double>(unknowns, seed + 100);
+        multigrid.vmult(Mx, x);
+        multigrid.vmult(My, y);
+        const double xMx = unknowns.dot(x, Mx), yMy = unknowns.dot(y, My);
+        EXPECT_GT(xMx, 0);
+        EXPECT_NEAR(unknowns.dot(x, My), unknowns.dot(y, Mx), 1e-12 * std::sqrt(xMx * yMy));
+      }
+    }
+  }
+
+  TEST(GeometricMultigrid, TakesFewIterationsAtEveryGridPosition)
+  {
+    for (const unsigned int n : {18, 19, 20, 36, 37, 38})
+    {
+      SCOPED_TRACE(n);
+      const HeldBody body("cylinder", n);
+      EXPECT_LE(
+        iterations(body, Material("Neo-Hookean", 5000, 0.3), body.discretization->make_vector()),
+        9U);
+    }
+  }
+
+  // 30 % shorter and bent, a slender body gives way to the side.
+  TEST(GeometricMultigrid, RecognisesAnIndefiniteTangent)
+  {
+    const HeldBody body("cylinder", 18);
+    LinearSolverParameters parameters;
+    parameters.tolerance      = 1e-8;
+    parameters.max_iterations = 100;
+    const Material material("Neo-Hookean", 5000, 0.3);
+    MatrixFreeSolver solver(*body.discretization, material, body.constrained, parameters);
+    solver.set_state(body.bent(0, -0.3));
+    const BlockMatrix no_supports(body.discretization->partitioner(), {});
+    solver.set_matrix(no_supports, {}, {});
+    Vector b = body.discretization->make_vector(), x(b), Kx(b);
+    for (unsigned int node = 0; node < body.discretization->n_owned_nodes(); ++node)
+      b.local_element(3 * node) = 1;
+    for (const unsigned int unknown : body.constrained)
+      b.local_element(unknown) = 0;
+    EXPECT_LT(solver.solve(x, b), 100U);
+    EXPECT_TRUE(std::isnan(solver.condition()));
+    EXPECT_GT(x * b, 0); // a direction of descent
+  }
+} // namespace
