@@ -4,12 +4,11 @@
 #include <softcell/operators/matrix_free_elasticity.h>
 
 #include "cell_kernels.h"
-#include "simd_logarithm.h"
+#include "simd_numbers.h"
 
 #include <softcell/base/exceptions.h>
 
 #include <algorithm>
-#include <experimental/simd>
 #include <limits>
 #include <numeric>
 
@@ -21,37 +20,9 @@ namespace softcell
 
     /// What packs of all kinds have in common.
     template <class Real>
-    struct SimdCells
+    struct SimdCells : SimdNumbers<Real>
     {
-      using Number                    = stdx::native_simd<Real>;
-      static constexpr unsigned int W = Number::size();
-
       const CellGeometry<Real> &geometry;
-
-      static Number load(const Real *const packed, const std::size_t number = 0)
-      {
-        return Number(packed + number * W, stdx::vector_aligned);
-      }
-      static void store(const Number &value, Real *const packed, const std::size_t number)
-      {
-        value.copy_to(packed + number * W, stdx::vector_aligned);
-      }
-      static Number log1p(const Number &x)
-      {
-        return simd_log1p(x);
-      }
-      template <class Mask>
-      static unsigned int count(const Mask &mask)
-      {
-        return stdx::popcount(mask);
-      }
-      static void reset_where_empty(const Real, Matrix3<Number> &) {}
-      static void reset_where_empty(const Number &weight, Matrix3<Number> &F)
-      {
-#pragma GCC unroll 9
-        for (int k = 0; k < 9; ++k)
-          stdx::where(weight == 0, F.entries[k]) = Number(k % 4 == 0 ? 1 : 0);
-      }
     };
 
     /// Neighbours along x with Gauss points, some of which may have weights of their own.
@@ -127,13 +98,6 @@ namespace softcell
       }
     };
 
-    /// The law with moduli in Real.
-    template <class Real, template <class> class Law>
-    Law<Real> rounded(const Law<double> &law)
-    {
-      return {Real(law.lambda), Real(law.mu)};
-    }
-
     template <class Real>
     CellGeometry<Real> geometry_of(const UniformCells<Real> &cells)
     {
@@ -170,11 +134,11 @@ namespace softcell
         cells.for_each_pack(begin_plane, [&](const auto &pack, const int layer) {
           if constexpr (std::is_same_v<std::decay_t<decltype(pack)>,
                                        typename UniformCells<Real>::PointPack>)
-            f(ScatteredCells<Real>{{geometry}, pack}, law, geometry, layer);
+            f(ScatteredCells<Real>{{{}, geometry}, pack}, law, geometry, layer);
           else if (pack.weights == nullptr)
-            f(RowCells<Real, true>{{geometry}, pack}, law, geometry, layer);
+            f(RowCells<Real, true>{{{}, geometry}, pack}, law, geometry, layer);
           else
-            f(RowCells<Real, false>{{geometry}, pack}, law, geometry, layer);
+            f(RowCells<Real, false>{{{}, geometry}, pack}, law, geometry, layer);
         });
       });
     }

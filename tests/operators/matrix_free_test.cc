@@ -1,67 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The matrix-free operator against the assembled one.
 
-#include <softcell/base/exceptions.h>
-#include <softcell/discretization/methods.h>
-#include <softcell/operators/elasticity.h>
 #include <softcell/operators/matrix_free_elasticity.h>
+
+#include "matrix_free_problems.h"
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/geometry/shapes.h>
 
 #include <gtest/gtest.h>
 
 #include <omp.h>
 
 #include <cmath>
+#include <fstream>
 
 namespace
 {
   using namespace softcell;
-
-  const std::vector<std::string> all_models{"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"};
-
-  struct Problem
-  {
-    std::unique_ptr<Body> body;
-    std::unique_ptr<Discretization> discretization;
-  };
-
-  Problem problem(const std::string &type, const std::string &method, const unsigned int cells)
-  {
-    GeometryParameters geometry;
-    geometry.type   = type;
-    geometry.radius = 0.5;
-    geometry.length = 1.3;
-    geometry.size   = Point(1.2, 1, 0.9);
-    std::vector<std::string> remarks;
-    Problem result{make_body(geometry, remarks), nullptr};
-    DiscretizationParameters parameters;
-    parameters.method     = method;
-    parameters.grid.cells = {cells};
-    parameters.cut.levels = 2;
-    result.discretization =
-      make_discretization(parameters, geometry, *result.body, MPI_COMM_SELF, remarks);
-    return result;
-  }
-
-  // Something without symmetry, different for each component and frequency.
-  Vector wavy(const Discretization &discretization, const double amplitude, const double frequency)
-  {
-    Vector u = discretization.make_vector();
-    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-    {
-      const Point &X       = discretization.node_positions()[i / 3];
-      const unsigned int c = i % 3;
-      u.local_element(i)   = amplitude * (std::sin(frequency * (X[0] + 0.3 * c * X[1] - X[2] + c)) +
-                                        X[(c + 1) % 3] * X[c]);
-    }
-    return u;
-  }
-
-  double relative_difference(const Vector &a, const Vector &b)
-  {
-    Vector d = a;
-    d -= b;
-    return d.linfty_norm() / b.linfty_norm();
-  }
 
   /// The largest differences from Elasticity, relative to the largest values there.
   template <class Real>
@@ -104,18 +61,9 @@ namespace
 
     LatticeBlocks<Real> blocks(lattice.nodes);
     matrix_free.diagonal(blocks);
-    const double largest = K.diagonal().linfty_norm();
-    const auto &values   = K.values();
-    for (unsigned int node = 0; node < lattice.entries.size(); ++node)
-    {
-      const auto begin    = K.columns().begin() + K.row_start()[node],
-                 end      = K.columns().begin() + K.row_start()[node + 1];
-      const std::size_t n = end - begin, block = std::find(begin, end, node) - begin;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          ASSERT_NEAR(blocks.component(a == b ? a : 6 - a - b)[lattice.entries[node]],
-                      values[9 * K.row_start()[node] + (a * n + block) * 3 + b], bound * largest);
-    }
+    expect_diagonal_blocks(K, bound, [&](const unsigned int node, const int a, const int b) {
+      return blocks.component(a == b ? a : 6 - a - b)[lattice.entries[node]];
+    });
   }
 
   TEST(MatrixFreeElasticity, IsTheAssembledOneOnCutCells)
@@ -124,7 +72,7 @@ namespace
       for (const std::string method : {"weighted cell", "moment fitting", "sparse grid"})
       {
         const Problem p = problem(type, method, 5);
-        for (const std::string &model : all_models)
+        for (const std::string &model : laws)
         {
           SCOPED_TRACE(type + ' ' + method + ' ' + model);
           const Material material(model, 5000, 0.3);
@@ -170,6 +118,47 @@ namespace
       EXPECT_EQ(matrix_free.energy(u), energy_alone);
     }
     omp_set_num_threads(n_threads);
+  }
+
+  TEST(MatrixFreeElasticity, IsTheAssembledOneOnALiver)
+  {
+    GeometryParameters geometry;
+    geometry.type   = "image";
+    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
+    geometry.scale  = 0.001;
+    geometry.labels = {255};
+    if (!std::ifstream(geometry.file))
+      GTEST_SKIP() << geometry.file << " is missing";
+    std::vector<std::string> remarks;
+    const auto body = make_body(geometry, remarks);
+    GridParameters grid;
+    grid.cells = {8};
+    for (const std::string rule : {"weighted cell", "moment fitting"})
+    {
+      const Immersed liver(rule, 1, grid, {2}, *body, MPI_COMM_SELF);
+      const Material material("Neo-Hookean", 5000, 0.45);
+      expect_agreement<double>(liver, material, 1e-12);
+      expect_agreement<float>(liver, material, 1e-5);
+    }
+  }
+
+  TEST(CellLattice, IsRefusedWhereCellsAreNotAlike)
+  {
+    const auto refused = [](const Discretization &discretization) {
+      EXPECT_THROW(cell_lattice(discretization), BadInput);
+    };
+    refused(*problem("sphere", "weighted cell", 6, 1, 1).discretization);
+    refused(*problem("sphere", "weighted cell", 4, 2).discretization);
+    refused(*problem("cylinder", "tetrahedra", 4).discretization);
+    const auto body = make_sphere(1);
+    GridParameters grid;
+    grid.cells = {4};
+    CutParameters cut;
+    cut.alpha = 1e-3;
+    refused(Immersed("weighted cell", 1, grid, cut, *body, MPI_COMM_SELF));
+    cut.alpha         = 0;
+    cut.ghost_penalty = 0.1;
+    refused(Immersed("weighted cell", 1, grid, cut, *body, MPI_COMM_SELF));
   }
 
   TEST(MatrixFreeElasticity, RefusesInvertedPoints)

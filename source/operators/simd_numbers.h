@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Packs of numbers as the kernels of the matrix-free operators use them.
+#pragma once
+
+#include "simd_logarithm.h"
+
+#include <softcell/mechanics/tensor.h>
+
+namespace softcell
+{
+  template <class Real>
+  struct SimdNumbers
+  {
+    using Number                    = std::experimental::native_simd<Real>;
+    static constexpr unsigned int W = Number::size();
+
+    /// Pack `number` of an array of packs.
+    static Number load(const Real *const packed, const std::size_t number)
+    {
+      return Number(packed + number * W, std::experimental::vector_aligned);
+    }
+    static void store(const Number &value, Real *const packed, const std::size_t number)
+    {
+      value.copy_to(packed + number * W, std::experimental::vector_aligned);
+    }
+    static Number log1p(const Number &x)
+    {
+      return simd_log1p(x);
+    }
+    template <class Mask>
+    static unsigned int count(const Mask &mask)
+    {
+      return std::experimental::popcount(mask);
+    }
+    static void reset_where_empty(const Real, Matrix3<Number> &) {}
+    static void reset_where_empty(const Number &weight, Matrix3<Number> &F)
+    {
+#pragma GCC unroll 9
+      for (int k = 0; k < 9; ++k)
+        std::experimental::where(weight == 0, F.entries[k]) = Number(k % 4 == 0 ? 1 : 0);
+    }
+  };
+
+  /// The law with moduli in Real.
+  template <class Real, template <class> class Law>
+  Law<Real> rounded(const Law<double> &law)
+  {
+    return {Real(law.lambda), Real(law.mu)};
+  }
+} // namespace softcell
