@@ -227,6 +227,7 @@ namespace softcell
   template <class Real>
   void LatticeUnknowns::take(const LatticeUnknowns &fine,
                              const LatticeVector<Real> &u_fine,
+                             const Extension extension,
                              LatticeVector<Real> &u) const
   {
     const auto child = [&](const int i, const int j, const int k) {
@@ -252,7 +253,9 @@ namespace softcell
         if (a == std::size_t(-1) || b == std::size_t(-1))
           return;
         for (unsigned int c = 0; c < dim; ++c)
-          sum[c] += 2 * u_fine.component(c)[a] - u_fine.component(c)[b];
+          sum[c] += extension == Extension::constant
+                      ? u_fine.component(c)[a]
+                      : 2 * u_fine.component(c)[a] - u_fine.component(c)[b];
         ++n;
       });
       for (unsigned int c = 0; c < dim; ++c)
@@ -273,8 +276,10 @@ namespace softcell
   template void LatticeUnknowns::sum_up(const LatticeVector<float> &, LatticeVector<float> &) const;
   template void LatticeUnknowns::take(const LatticeUnknowns &,
                                       const LatticeVector<double> &,
+                                      Extension,
                                       LatticeVector<double> &) const;
   template void LatticeUnknowns::take(const LatticeUnknowns &,
                                       const LatticeVector<float> &,
+                                      Extension,
                                       LatticeVector<float> &) const;
 } // namespace softcell

@@ -10,29 +10,31 @@
 #include <cmath>
 #include <experimental/simd>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 namespace softcell
 {
   namespace
   {
+    const char *const multigrid = "Solver/Preconditioner = geometric multigrid ";
+
     const UniformGrid &check(const std::optional<UniformGrid> &grid,
                              const Discretization &discretization)
     {
       if (!grid)
-        throw BadInput("Solver/Preconditioner = geometric multigrid needs a background grid "
-                       "without refinement, of "
-                       "degree 1, on one rank; give 'Degree = 1', 'Surface refinement = 0', and "
-                       "start the program without mpirun.");
+        throw BadInput(std::string(multigrid) +
+                       "needs a background grid without refinement, of degree 1, on one "
+                       "rank; give 'Degree = 1', 'Surface refinement = 0', and start the "
+                       "program without mpirun.");
       PatchStorage storage;
       for (unsigned int i = 0; i < discretization.n_patches(); ++i)
         if (discretization.fictitious_patch(i, storage).n_points() > 0)
-          throw BadInput(
-            "Solver/Preconditioner = geometric multigrid has no fictitious material; give "
-            "'Discretization/Alpha = 0'.");
+          throw BadInput(std::string(multigrid) +
+                         "knows no fictitious material; give 'Discretization/Alpha = 0'.");
       if (discretization.ghost_faces().size() > 0)
-        throw BadInput("Solver/Preconditioner = geometric multigrid has no ghost penalty; give "
-                       "'Discretization/Ghost penalty = 0'.");
+        throw BadInput(std::string(multigrid) +
+                       "knows no ghost penalty; give 'Discretization/Ghost penalty = 0'.");
       return *grid;
     }
 
@@ -88,9 +90,9 @@ namespace softcell
           cells.nodes.entry(place[0] + v % 2, place[1] + v / 2 % 2, place[2] + v / 4);
       for (unsigned int q = 0; q < patch.n_points(); ++q)
         if (patch.weights[q] != 0 && patch.label(q) != label.value_or(patch.label(q)))
-          throw BadInput("Solver/Preconditioner = geometric multigrid needs a body of one "
-                         "material; section Geometry "
-                         "gives it several labels.");
+          throw BadInput(std::string(multigrid) +
+                         "needs a body of one material; section Geometry gives it several "
+                         "labels.");
         else
           label = patch.label(q);
 

@@ -30,8 +30,12 @@ namespace softcell
   struct GeometricMultigrid<Real>::Level
   {
     /// @param own  the level's free unknowns
-    Level(const CellLattice &cells, const Material &material, LatticeUnknowns own)
-        : unknowns(std::move(own)),
+    Level(const CellLattice &cells,
+          const Material &material,
+          LatticeUnknowns own,
+          const unsigned int smoother_degree)
+        : degree(smoother_degree),
+          unknowns(std::move(own)),
           tangent(cells, material, unknowns),
           inverse_diagonal(cells.nodes),
           x(cells.nodes),
@@ -41,6 +45,7 @@ namespace softcell
     {
     }
 
+    unsigned int degree; // of the smoother
     LatticeUnknowns unknowns;
     LatticeTangent<Real> tangent;
     LatticeBlocks<Real> inverse_diagonal;
@@ -80,17 +85,17 @@ namespace softcell
   GeometricMultigrid<Real>::GeometricMultigrid(const CellLattice &cells,
                                                const Material &material,
                                                const std::vector<std::size_t> &held,
-                                               const unsigned int degree)
-      : degree_(degree)
+                                               unsigned int degree)
   {
     const Material law = definite(material);
-    levels_.push_back(std::make_unique<Level>(cells, law, LatticeUnknowns(cells, held)));
+    levels_.push_back(std::make_unique<Level>(cells, law, LatticeUnknowns(cells, held), degree));
     CellLattice coarse = cells;
     while (levels_.back()->unknowns.free_entries().size() > n_coarsest)
     {
       coarse = coarse_cells(coarse);
-      levels_.push_back(
-        std::make_unique<Level>(coarse, law, LatticeUnknowns(coarse, levels_.back()->unknowns)));
+      degree *= 2;
+      levels_.push_back(std::make_unique<Level>(
+        coarse, law, LatticeUnknowns(coarse, levels_.back()->unknowns), degree));
     }
     coarsest_entries_ = levels_.back()->unknowns.free_entries();
   }
@@ -116,12 +121,19 @@ namespace softcell
       const Level &fine = *levels_[l - 1];
       Level &coarse     = *levels_[l];
       LatticeVector<Real> coarse_state(coarse.unknowns.nodes());
-      coarse.unknowns.take(fine.unknowns, state, coarse_state);
-      try
-      {
-        coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
-      }
-      catch (const InvertedPoint &)
+      const auto take = [&](const Extension extension) {
+        coarse.unknowns.take(fine.unknowns, state, extension, coarse_state);
+        try
+        {
+          coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
+          return true;
+        }
+        catch (const InvertedPoint &)
+        {
+          return false;
+        }
+      };
+      if (!take(Extension::linear) && !take(Extension::constant))
       {
         const LatticeVector<Real> rest(coarse.unknowns.nodes());
         coarse.tangent.elasticity().set_state(rest, Stresses::tensile);
@@ -194,7 +206,7 @@ namespace softcell
   void GeometricMultigrid<Real>::smooth(Level &level) const
   {
     const Real scale = 1 / level.largest_eigenvalue;
-    for (unsigned int k = 0; k < degree_; ++k)
+    for (unsigned int k = 0; k < level.degree; ++k)
     {
       level.precondition(k == 0 ? 0 : Real(2 * k - 1.) / (2 * k + 3),
                          scale * (8 * k + 4) / (2 * k + 3));

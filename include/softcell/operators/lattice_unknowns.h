@@ -17,6 +17,13 @@ namespace softcell
   /// so these are weighted cells of the same body.
   CellLattice coarse_cells(const CellLattice &fine);
 
+  /// What a node without a value hears from those beside it.
+  enum class Extension
+  {
+    linear, // from two in line
+    constant
+  };
+
   /// The nodes of a body's cells, and which of their unknowns are free.
   ///
   /// A field of the unknowns is 0 in all that are not free, and where no cell is. On a coarse
@@ -93,10 +100,11 @@ namespace softcell
     void sum_up(const LatticeVector<Real> &fine, LatticeVector<Real> &coarse) const;
 
     /// A displacement of the finer lattice as one of this: its values where it has any, and
-    /// elsewhere what linear functions through neighbours in line give on the average.
+    /// elsewhere the mean of what its neighbours say.
     template <class Real>
     void take(const LatticeUnknowns &fine,
               const LatticeVector<Real> &u_fine,
+              Extension extension,
               LatticeVector<Real> &u) const;
 
   private:

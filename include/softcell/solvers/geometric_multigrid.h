@@ -21,16 +21,18 @@ namespace softcell
   /// tangent at rest is the same.
   ///
   /// The smoother is Chebyshev's polynomial of the fourth kind over the inverted diagonal blocks,
-  /// before and after. Source: Lottes, Optimal polynomial smoothers for multigrid V-cycles (2023).
+  /// before and after, of a degree that doubles from grid to grid: coarse corrections become nearly
+  /// exact, for little. Source: Lottes, Optimal polynomial smoothers for multigrid V-cycles (2023).
   template <class Real>
   class GeometricMultigrid
   {
   public:
-    /// @param held  entries of a LatticeVector whose unknowns are not free.
+    /// @param held    entries of a LatticeVector whose unknowns are not free.
+    /// @param degree  of the finest grid's smoother.
     GeometricMultigrid(const CellLattice &cells,
                        const Material &material,
                        const std::vector<std::size_t> &held,
-                       unsigned int degree = 3);
+                       unsigned int degree = 4);
 
     ~GeometricMultigrid();
 
@@ -54,7 +56,6 @@ namespace softcell
     void smooth(Level &level) const;
     void cycle(unsigned int level) const;
 
-    unsigned int degree_;
     std::vector<std::unique_ptr<Level>> levels_; // from the finest on
     std::vector<std::size_t> coarsest_entries_;  // of the coarsest grid's free unknowns
     dealii::FullMatrix<double> coarsest_inverse_;
