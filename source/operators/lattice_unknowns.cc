@@ -3,6 +3,8 @@
 
 #include <softcell/operators/lattice_unknowns.h>
 
+#include <softcell/mechanics/kinematics.h>
+
 #include <algorithm>
 
 namespace softcell
@@ -227,7 +229,6 @@ namespace softcell
   template <class Real>
   void LatticeUnknowns::take(const LatticeUnknowns &fine,
                              const LatticeVector<Real> &u_fine,
-                             const Extension extension,
                              LatticeVector<Real> &u) const
   {
     const auto child = [&](const int i, const int j, const int k) {
@@ -253,14 +254,84 @@ namespace softcell
         if (a == std::size_t(-1) || b == std::size_t(-1))
           return;
         for (unsigned int c = 0; c < dim; ++c)
-          sum[c] += extension == Extension::constant
-                      ? u_fine.component(c)[a]
-                      : 2 * u_fine.component(c)[a] - u_fine.component(c)[b];
+          sum[c] += 2 * u_fine.component(c)[a] - u_fine.component(c)[b];
         ++n;
       });
       for (unsigned int c = 0; c < dim; ++c)
         u.component(c)[node] = sum[c] / n;
     });
+  }
+
+  /// Is det F small at a Gauss point of the cell with these corners?
+  template <class Real>
+  bool LatticeUnknowns::is_tangled(const std::size_t (&corners)[8],
+                                   const Direction &spacing,
+                                   const double smallest,
+                                   const LatticeVector<Real> &u) const
+  {
+    constexpr double near = 0.78867513459481288, far = 1 - near; // shapes at a Gauss point
+    for (int q = 0; q < 8; ++q)
+    {
+      Matrix3<double> F = identity<double>();
+      for (int axis = 0; axis < 3; ++axis)
+        for (int v = 0; v < 8; ++v)
+        {
+          double gradient = (v >> axis & 1 ? 1 : -1) / spacing[axis];
+          for (int other = 0; other < 3; ++other)
+            if (other != axis)
+              gradient *= (v >> other & 1) == (q >> other & 1) ? near : far;
+          for (int c = 0; c < 3; ++c)
+            F(c, axis) += gradient * u.component(c)[corners[v]];
+        }
+      if (!(determinant(F) > smallest))
+        return true;
+    }
+    return false;
+  }
+
+  template <class Real>
+  void LatticeUnknowns::untangle(const Direction &spacing,
+                                 const double smallest,
+                                 LatticeVector<Real> &u) const
+  {
+    constexpr unsigned int n_sweeps = 10;
+    const auto &n                   = nodes_.n_cells();
+    for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+    {
+      std::vector<std::uint8_t> is_marked(nodes_.size(), 0);
+      bool is_good = true;
+      for_each_node(nodes_, [&](const std::size_t node, const int i, const int j, const int k) {
+        if (i == n[0] || j == n[1] || k == n[2])
+          return;
+        std::size_t corners[8];
+        for (int v = 0; v < 8; ++v)
+          corners[v] = node + nodes_.entry(v % 2, v / 2 % 2, v / 4);
+        if (!std::all_of(corners, corners + 8, [&](const std::size_t c) { return has_cell(c); }) ||
+            !is_tangled(corners, spacing, smallest, u))
+          return;
+        is_good = false;
+        for (const std::size_t corner : corners)
+          is_marked[corner] = 1;
+      });
+      if (is_good)
+        return;
+      const LatticeVector<Real> before = u;
+      for_each_node(nodes_, [&](const std::size_t node, const int i, const int j, const int k) {
+        if (!is_marked[node])
+          return;
+        double sum[3] = {0, 0, 0};
+        int n_beside  = 0;
+        for_each_neighbour([&](const int dx, const int dy, const int dz) {
+          const bool exists = is_inside(nodes_, i + dx, j + dy, k + dz) &&
+                              has_cell(nodes_.entry(i + dx, j + dy, k + dz));
+          for (unsigned int c = 0; exists && c < dim; ++c)
+            sum[c] += before.component(c)[nodes_.entry(i + dx, j + dy, k + dz)];
+          n_beside += exists;
+        });
+        for (unsigned int c = 0; c < dim; ++c)
+          u.component(c)[node] = sum[c] / n_beside;
+      });
+    }
   }
 
   template double LatticeUnknowns::dot(const LatticeVector<double> &,
@@ -276,10 +347,10 @@ namespace softcell
   template void LatticeUnknowns::sum_up(const LatticeVector<float> &, LatticeVector<float> &) const;
   template void LatticeUnknowns::take(const LatticeUnknowns &,
                                       const LatticeVector<double> &,
-                                      Extension,
                                       LatticeVector<double> &) const;
   template void LatticeUnknowns::take(const LatticeUnknowns &,
                                       const LatticeVector<float> &,
-                                      Extension,
                                       LatticeVector<float> &) const;
+  template void LatticeUnknowns::untangle(const Direction &, double, LatticeVector<double> &) const;
+  template void LatticeUnknowns::untangle(const Direction &, double, LatticeVector<float> &) const;
 } // namespace softcell

@@ -15,6 +15,9 @@ namespace softcell
     /// Unknowns of the grid that is solved exactly, at most.
     constexpr std::size_t n_coarsest = 400;
 
+    /// Of cells on coarse grids.
+    constexpr double smallest_jacobian = 0.05;
+
     Material definite(const Material &material)
     {
       return material.visit([](const auto &law) {
@@ -35,6 +38,7 @@ namespace softcell
           LatticeUnknowns own,
           const unsigned int smoother_degree)
         : degree(smoother_degree),
+          spacing(cells.spacing),
           unknowns(std::move(own)),
           tangent(cells, material, unknowns),
           inverse_diagonal(cells.nodes),
@@ -46,6 +50,7 @@ namespace softcell
     }
 
     unsigned int degree; // of the smoother
+    Direction spacing;
     LatticeUnknowns unknowns;
     LatticeTangent<Real> tangent;
     LatticeBlocks<Real> inverse_diagonal;
@@ -121,19 +126,13 @@ namespace softcell
       const Level &fine = *levels_[l - 1];
       Level &coarse     = *levels_[l];
       LatticeVector<Real> coarse_state(coarse.unknowns.nodes());
-      const auto take = [&](const Extension extension) {
-        coarse.unknowns.take(fine.unknowns, state, extension, coarse_state);
-        try
-        {
-          coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
-          return true;
-        }
-        catch (const InvertedPoint &)
-        {
-          return false;
-        }
-      };
-      if (!take(Extension::linear) && !take(Extension::constant))
+      coarse.unknowns.take(fine.unknowns, state, coarse_state);
+      coarse.unknowns.untangle(coarse.spacing, smallest_jacobian, coarse_state);
+      try
+      {
+        coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
+      }
+      catch (const InvertedPoint &)
       {
         const LatticeVector<Real> rest(coarse.unknowns.nodes());
         coarse.tangent.elasticity().set_state(rest, Stresses::tensile);

@@ -152,7 +152,7 @@ namespace
     fine.interpolate(exact_coarse, x);
     for (const std::size_t entry : fine.free_entries())
       EXPECT_NEAR(x.entries()[entry], exact.entries()[entry], 1e-12);
-    coarse.take(fine, exact, Extension::linear, taken);
+    coarse.take(fine, exact, taken);
     for (const std::size_t entry : coarse.free_entries())
       EXPECT_NEAR(taken.entries()[entry], exact_coarse.entries()[entry], 1e-12);
   }

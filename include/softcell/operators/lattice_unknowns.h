@@ -17,13 +17,6 @@ namespace softcell
   /// so these are weighted cells of the same body.
   CellLattice coarse_cells(const CellLattice &fine);
 
-  /// What a node without a value hears from those beside it.
-  enum class Extension
-  {
-    linear, // from two in line
-    constant
-  };
-
   /// The nodes of a body's cells, and which of their unknowns are free.
   ///
   /// A field of the unknowns is 0 in all that are not free, and where no cell is. On a coarse
@@ -100,14 +93,24 @@ namespace softcell
     void sum_up(const LatticeVector<Real> &fine, LatticeVector<Real> &coarse) const;
 
     /// A displacement of the finer lattice as one of this: its values where it has any, and
-    /// elsewhere the mean of what its neighbours say.
+    /// elsewhere what linear functions through neighbours in line give on the average.
     template <class Real>
     void take(const LatticeUnknowns &fine,
               const LatticeVector<Real> &u_fine,
-              Extension extension,
               LatticeVector<Real> &u) const;
 
+    /// Smooths a displacement about cells with a small det F, until it is above `smallest`
+    /// everywhere or a number of sweeps is over.
+    /// @param spacing  edges of a cell. Units: m
+    template <class Real>
+    void untangle(const Direction &spacing, double smallest, LatticeVector<Real> &u) const;
+
   private:
+    template <class Real>
+    bool is_tangled(const std::size_t (&corners)[8],
+                    const Direction &spacing,
+                    double smallest,
+                    const LatticeVector<Real> &u) const;
     void mark_nodes(const CellLattice &cells);
     void find_runs();
 

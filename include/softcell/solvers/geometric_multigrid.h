@@ -16,8 +16,9 @@ namespace softcell
   ///
   /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
   /// one, and the supports as Galerkin's product. The tangents leave out stresses that could make
-  /// them indefinite, see MatrixFreeElasticity::set_state(). Where a coarse cell is inside out, its
-  /// grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
+  /// them indefinite, see MatrixFreeElasticity::set_state(). The
+  /// displacement is smoothed where coarse cells are nearly inside out; if that is not enough,
+  /// their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
   /// tangent at rest is the same.
   ///
   /// The smoother is Chebyshev's polynomial of the fourth kind over the inverted diagonal blocks,
