@@ -290,6 +290,7 @@ namespace
     const double n_unknowns = 3. * all.entries.size(),
                  n_cells    = all.gauss_cells.size() + all.point_cells.size();
     report(state, n_unknowns, n_cells);
+    state.counters["filled lanes"] = n_cells * 8 / (cells.n_point_packs() * Simd<Real>::size());
     if (body == "box")
     {
       // u and x are read and y is read and written once, and the cells' pressures
@@ -326,7 +327,7 @@ namespace
       Half(const BlockMatrix &K, const int begin, const int end, const int n_columns)
           : rows(3 * (end - begin), 0, communicator),
             columns(n_columns, 0, communicator),
-            matrix(::Copy, rows, columns, 81),
+            matrix(::Copy, rows, columns, row_lengths(K, begin, end).data(), true),
             x(columns),
             y(rows)
       {
@@ -346,6 +347,14 @@ namespace
         matrix.FillComplete(columns, rows);
         matrix.OptimizeStorage();
         x.PutScalar(1);
+      }
+
+      static std::vector<int> row_lengths(const BlockMatrix &K, const int begin, const int end)
+      {
+        std::vector<int> lengths;
+        for (int node = begin; node < end; ++node)
+          lengths.insert(lengths.end(), 3, 3 * (K.row_start()[node + 1] - K.row_start()[node]));
+        return lengths;
       }
 
       Epetra_SerialComm communicator;

@@ -162,13 +162,15 @@ namespace softcell
                     });
     }
 
-    /// Sets a plane of nodes to 0.
-    template <class Field>
-    auto clear(Field &field)
+    /// Sets the nodes of cells in a plane to 0, which all others are.
+    template <class Real, class Field>
+    auto clear(const UniformCells<Real> &cells, Field &field)
     {
-      return [&field](const int k) {
-        for (unsigned int c = 0; c < field.n_components(); ++c)
-          std::fill_n(field.component(c) + k * field.lattice().plane(), field.lattice().plane(), 0);
+      return [&](const int k) {
+        cells.for_each_run(k, [&](const std::size_t entry, const std::size_t n) {
+          for (unsigned int c = 0; c < field.n_components(); ++c)
+            std::fill_n(field.component(c) + entry, n, 0);
+        });
       };
     }
 
@@ -227,7 +229,7 @@ namespace softcell
                                             LatticeVector<Real> &r) const
   {
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
-    for_each_pack(cells_, material_, clear(r),
+    for_each_pack(cells_, material_, clear(cells_, r),
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
                     n_inverted[layer] +=
                       add_residual(cells, law, geometry, components(u), components(r));
@@ -252,7 +254,7 @@ namespace softcell
   template <class Real>
   void MatrixFreeElasticity<Real>::vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const
   {
-    for_each_pack(cells_, material_, clear(y),
+    for_each_pack(cells_, material_, clear(cells_, y),
                   [&](const auto &cells, const auto &law, const auto &geometry, int) {
                     add_tangent_action(cells, law, geometry, components(u_), pressures_.data(),
                                        components(x), components(y));
@@ -262,7 +264,7 @@ namespace softcell
   template <class Real>
   void MatrixFreeElasticity<Real>::diagonal(LatticeBlocks<Real> &blocks) const
   {
-    for_each_pack(cells_, material_, clear(blocks),
+    for_each_pack(cells_, material_, clear(cells_, blocks),
                   [&](const auto &cells, const auto &law, const auto &geometry, int) {
                     Real *const all[6] = {blocks.component(0), blocks.component(1),
                                           blocks.component(2), blocks.component(3),

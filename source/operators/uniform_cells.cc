@@ -134,8 +134,27 @@ namespace softcell
   {
     for (unsigned int d = 0; d < dim; ++d)
       spacing_[d] = cells.spacing[d];
+    runs_.assign((nodes_.n_cells()[1] + 1) * (nodes_.n_cells()[2] + 1), {nodes_.size(), 0});
+    for (const GaussCell &cell : cells.gauss_cells)
+      add_to_runs(cell.place);
+    for (const PointCell &cell : cells.point_cells)
+      add_to_runs(cell.place);
     add_row_packs(cells.gauss_cells, cells.spacing[0] * cells.spacing[1] * cells.spacing[2] / 8);
     add_point_packs(cells.point_cells);
+  }
+
+  template <class Real>
+  void UniformCells<Real>::add_to_runs(const std::array<int, 3> &place)
+  {
+    const auto [i, j, k] = place;
+    for (const int dk : {0, 1})
+      for (const int dj : {0, 1})
+      {
+        auto &[begin, end]      = runs_[(k + dk) * (nodes_.n_cells()[1] + 1) + j + dj];
+        const std::size_t entry = nodes_.entry(i, j + dj, k + dk);
+        begin                   = std::min(begin, entry);
+        end                     = std::max(end, entry + 2);
+      }
   }
 
   template <class Real>
@@ -230,8 +249,9 @@ namespace softcell
   template <class Real>
   std::size_t UniformCells<Real>::memory() const
   {
-    return (weights_.size() + points_.size()) * sizeof(Real) + row_packs_.size() * sizeof(RowPack) +
-           point_packs_.size() * sizeof(PointPack) + entries_.size() * sizeof(std::size_t);
+    return (weights_.size() + points_.size()) * sizeof(Real) + runs_.size() * sizeof(runs_[0]) +
+           row_packs_.size() * sizeof(RowPack) + point_packs_.size() * sizeof(PointPack) +
+           entries_.size() * sizeof(std::size_t);
   }
 
   template class UniformCells<double>;

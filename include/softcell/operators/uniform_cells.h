@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace softcell
@@ -86,6 +87,16 @@ namespace softcell
     {
       return spacing_;
     }
+    /// Calls f(entry, n) for runs of entries that hold all nodes of cells in plane k of nodes, and
+    /// others.
+    template <class F>
+    void for_each_run(const int k, const F &f) const
+    {
+      const int n_rows = nodes_.n_cells()[1] + 1;
+      for (int row = k * n_rows; row < (k + 1) * n_rows; ++row)
+        if (runs_[row].first < runs_[row].second)
+          f(runs_[row].first, runs_[row].second - runs_[row].first);
+    }
     /// Packs of points, in all packs of cells.
     std::size_t n_point_packs() const
     {
@@ -137,14 +148,17 @@ namespace softcell
     /// @param full  the weights of a full cell. Units: m^3
     void add_row_packs(const std::vector<GaussCell> &cells, double full);
     void add_point_packs(const std::vector<PointCell> &cells);
+    /// Takes the nodes of a cell into the runs.
+    void add_to_runs(const std::array<int, 3> &place);
 
     NodeLattice nodes_;
     std::array<Real, 3> spacing_;
     std::size_t n_points_ = 0;
     std::vector<RowPack> row_packs_;
     std::vector<PointPack> point_packs_;
-    std::vector<std::size_t> row_layers_, point_layers_; // (n_layers + 1) first packs
-    std::vector<std::size_t> entries_;                   // of the point packs
+    std::vector<std::size_t> row_layers_, point_layers_;    // (n_layers + 1) first packs
+    std::vector<std::pair<std::size_t, std::size_t>> runs_; // (rows of nodes) begin and end
+    std::vector<std::size_t> entries_;                      // of the point packs
     dealii::AlignedVector<Real> weights_, points_;
   };
 } // namespace softcell
