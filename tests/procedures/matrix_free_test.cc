@@ -41,15 +41,16 @@ namespace
   // The supports' tangents are the matrix, on every grid.
   TEST(MatrixFree, HoldsASphereByItsSurfaceAsTheMatrixDoes)
   {
-    for (const std::string imposition : {"penalty", "Nitsche"})
-      for (const std::string method : {"weighted cell", "moment fitting"})
-      {
-        SCOPED_TRACE(imposition + ' ' + method);
-        Parameters p       = body_of("sphere", {method.c_str(), 1}, 7);
-        p.regions          = {{"base", "z < 0.3"}, {"top", "z > 0.8"}};
-        p.load_entries     = {{"base", "clamp"}, {"top", "displacement 0.05, 0, 0.1"}};
-        p.loads.imposition = imposition;
-        expect_the_same(p);
-      }
+    using Names = std::vector<std::pair<std::string, std::string>>;
+    for (const auto &[imposition, method] :
+         Names{{"penalty", "weighted cell"}, {"Nitsche", "moment fitting"}})
+    {
+      SCOPED_TRACE(imposition + ' ' + method);
+      Parameters p       = body_of("sphere", {method.c_str(), 1}, 7);
+      p.regions          = {{"base", "z < 0.3"}, {"top", "z > 0.8"}};
+      p.load_entries     = {{"base", "clamp"}, {"top", "displacement 0.05, 0, 0.1"}};
+      p.loads.imposition = imposition;
+      expect_the_same(p);
+    }
   }
 } // namespace
