@@ -51,8 +51,8 @@ namespace softcell
     void for_each_run(const F &f) const
     {
 #pragma omp parallel for schedule(static)
-      for (std::size_t r = 0; r < runs_.size(); ++r)
-        f(runs_[r].first, runs_[r].second);
+      for (const auto &run : runs_)
+        f(run.first, run.second);
     }
 
     /// Calls f(an entry of y, that of x) for all entries in the runs.
