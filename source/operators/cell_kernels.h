@@ -10,6 +10,14 @@
 #include <cmath>
 #include <cstddef>
 
+// One inlined body keeps a pack's values in registers. With sanitizers it would take minutes to
+// compile.
+#ifdef __SANITIZE_ADDRESS__
+#  define SOFTCELL_FLATTEN
+#else
+#  define SOFTCELL_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace softcell
 {
   // `Cells` stands for the cell or cells that a kernel handles at once:
@@ -147,7 +155,7 @@ namespace softcell
   /// Adds the internal force.
   /// @return how many points are turned inside out, as Cells counts them.
   template <class Cells, class Law, class Real>
-  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int
+  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE unsigned int
   add_residual(const Cells &cells,
                const Law &law,
                const CellGeometry<Real> &geometry,
@@ -182,7 +190,7 @@ namespace softcell
   /// @param is_tensile  keeps them where the tangent is positive semi-definite, see Stresses.
   /// @return how many points are turned inside out.
   template <class Cells, class Law, class Real>
-  [[gnu::flatten]] SOFTCELL_HOST_DEVICE unsigned int
+  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE unsigned int
   keep_pressures(const Cells &cells,
                  const Law &law,
                  const CellGeometry<Real> &geometry,
@@ -242,7 +250,7 @@ namespace softcell
 
   /// Adds the tangent at u times x.
   template <class Cells, class Law, class Real>
-  [[gnu::flatten]] SOFTCELL_HOST_DEVICE void add_tangent_action(const Cells &cells,
+  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE void add_tangent_action(const Cells &cells,
                                                                 const Law &law,
                                                                 const CellGeometry<Real> &geometry,
                                                                 const Components<const Real> &u,

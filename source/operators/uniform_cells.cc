@@ -175,13 +175,14 @@ namespace softcell
     row_layers_.assign(nodes_.n_cells()[2] + 1, 0);
     for (auto cell = sorted.begin(); cell != sorted.end();)
     {
-      const auto [i, j, k] = (*cell)->place;
-      const auto end       = std::find_if(cell, sorted.end(), [&](const GaussCell *other) {
-        return other->place[2] != k || other->place[1] != j || other->place[0] >= i + int(W);
+      const std::array<int, 3> first = (*cell)->place;
+      const auto end = std::find_if(cell, sorted.end(), [&](const GaussCell *other) {
+        const auto &[i, j, k] = other->place;
+        return k != first[2] || j != first[1] || i >= first[0] + int(W);
       });
-      row_packs_.push_back({nodes_.entry(i, j, k), n_points_, nullptr});
+      row_packs_.push_back({nodes_.entry(first[0], first[1], first[2]), n_points_, nullptr});
       n_points_ += 8;
-      ++row_layers_[k + 1];
+      ++row_layers_[first[2] + 1];
       const bool all_full = end - cell == W && std::all_of(cell, end, is_full);
       starts.push_back(all_full ? std::size_t(-1) : weights_.size());
       if (!all_full)
@@ -189,7 +190,7 @@ namespace softcell
         weights_.resize(weights_.size() + 8 * W);
         for (; cell != end; ++cell)
           for (unsigned int q = 0; q < 8; ++q)
-            weights_[starts.back() + q * W + (*cell)->place[0] - i] = (*cell)->weights[q];
+            weights_[starts.back() + q * W + (*cell)->place[0] - first[0]] = (*cell)->weights[q];
       }
       cell = end;
     }
