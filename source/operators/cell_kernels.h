@@ -18,6 +18,13 @@
 #  define SOFTCELL_FLATTEN [[gnu::flatten]]
 #endif
 
+/// Before a loop that leaves arrays in registers of the device.
+#ifdef __CUDACC__
+#  define SOFTCELL_DEVICE_UNROLL _Pragma("unroll")
+#else
+#  define SOFTCELL_DEVICE_UNROLL
+#endif
+
 namespace softcell
 {
   // `Cells` stands for the cell or cells that a kernel handles at once:
@@ -50,18 +57,28 @@ namespace softcell
     Real *component[3];
   };
 
+  /// The law with moduli in Real.
+  template <class Real, template <class> class Law>
+  Law<Real> rounded(const Law<double> &law)
+  {
+    return {Real(law.lambda), Real(law.mu)};
+  }
+
   /// The gradients of three components at the points of cells.
-  template <class Cells>
+  template <class Cells, class Gradients = typename Cells::Gradients>
   class CellGradients
   {
   public:
-    using Number    = typename Cells::Number;
-    using Gradients = typename Cells::Gradients;
+    using Number = typename Cells::Number;
 
     template <class Real>
     SOFTCELL_HOST_DEVICE explicit CellGradients(const CellGeometry<Real> &geometry)
         : components_{Gradients(geometry.scale), Gradients(geometry.scale),
                       Gradients(geometry.scale)}
+    {
+    }
+    SOFTCELL_HOST_DEVICE
+    CellGradients(const Gradients &x, const Gradients &y, const Gradients &z) : components_{x, y, z}
     {
     }
 
@@ -128,6 +145,14 @@ namespace softcell
   private:
     Gradients components_[3];
   };
+
+  /// Where the gradients of a tangent's displacement are kept; cells may have a place of their own.
+  template <class Cells, class Real>
+  SOFTCELL_HOST_DEVICE CellGradients<Cells> state_gradients(const Cells &,
+                                                            const CellGeometry<Real> &geometry)
+  {
+    return CellGradients<Cells>(geometry);
+  }
 
   /// The law with moduli times the weight, which multiplies all that it gives.
   template <template <class> class Law, class Real, class Weight>
@@ -231,7 +256,7 @@ namespace softcell
                                              const F &f)
   {
     using Number = typename Cells::Number;
-    CellGradients<Cells> H(geometry);
+    auto H       = state_gradients(cells, geometry);
     H.gather(cells, u);
     cells.for_each_point([&](const auto &point, const std::size_t number, const auto &weight) {
       const Matrix3<Number> F_at = H.deformation_gradient(point, weight);
@@ -286,30 +311,46 @@ namespace softcell
   }
 
   /// Adds the diagonal blocks of the tangent at u, symmetric, in the order of LatticeBlocks.
-  template <class Cells, class Law, class Real>
-  SOFTCELL_HOST_DEVICE void add_diagonal(const Cells &cells,
-                                         const Law &law,
-                                         const CellGeometry<Real> &geometry,
-                                         const Components<const Real> &u,
-                                         const Real *pressures,
-                                         Real *const (&blocks)[6])
+  /// @param K  K[entry of the block][corner].
+  template <class Cells, class Law, class Real, class Blocks>
+  SOFTCELL_HOST_DEVICE void add_corner_blocks(const Cells &cells,
+                                              const Law &law,
+                                              const CellGeometry<Real> &geometry,
+                                              const Components<const Real> &u,
+                                              const Real *pressures,
+                                              Blocks &K)
   {
-    using Number         = typename Cells::Number;
-    Corners<Number> K[6] = {};
-    for_each_tangent(
-      cells, law, geometry, u, pressures, [&](const auto &point, const auto &tangent) {
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          NodalGradient<Number> dF;
-          corner_gradient(point, corner, geometry.scale, dF.gradient);
-          for (dF.component = 0; dF.component < 3; ++dF.component)
-          {
-            const Matrix3<Number> dP = tangent(dF);
-            for (int a = 0; a <= dF.component; ++a)
-              K[a == dF.component ? a : 6 - a - dF.component][corner] += dot(dP, a, dF.gradient);
-          }
-        }
-      });
+    using Number = typename Cells::Number;
+    for_each_tangent(cells, law, geometry, u, pressures,
+                     [&](const auto &point, const auto &tangent) {
+                       for (int corner = 0; corner < 8; ++corner)
+                       {
+                         NodalGradient<Number> dF;
+                         corner_gradient(point, corner, geometry.scale, dF.gradient);
+                         SOFTCELL_DEVICE_UNROLL
+                         for (int b = 0; b < 3; ++b)
+                         {
+                           dF.component             = b;
+                           const Matrix3<Number> dP = tangent(dF);
+                           SOFTCELL_DEVICE_UNROLL
+                           for (int a = 0; a <= b; ++a)
+                             K[a == b ? a : 6 - a - b][corner] += dot(dP, a, dF.gradient);
+                         }
+                       }
+                     });
+  }
+
+  /// The same at the nodes.
+  template <class Cells, class Law, class Real>
+  SOFTCELL_FLATTEN void add_diagonal(const Cells &cells,
+                                     const Law &law,
+                                     const CellGeometry<Real> &geometry,
+                                     const Components<const Real> &u,
+                                     const Real *pressures,
+                                     Real *const (&blocks)[6])
+  {
+    Corners<typename Cells::Number> K[6] = {};
+    add_corner_blocks(cells, law, geometry, u, pressures, K);
     for (int k = 0; k < 6; ++k)
       cells.add(K[k], blocks[k]);
   }

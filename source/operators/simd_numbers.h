@@ -40,11 +40,4 @@ namespace softcell
         std::experimental::where(weight == 0, F.entries[k]) = Number(k % 4 == 0 ? 1 : 0);
     }
   };
-
-  /// The law with moduli in Real.
-  template <class Real, template <class> class Law>
-  Law<Real> rounded(const Law<double> &law)
-  {
-    return {Real(law.lambda), Real(law.mu)};
-  }
 } // namespace softcell

@@ -42,12 +42,17 @@ namespace softcell
   /// there to be multiplied by the derivatives of the corners' shapes.
   ///
   /// The derivative along an axis is the same at points in line along it: it has four values.
-  template <class Number, class Real>
+  /// `Values` is where they are kept.
+  template <class Number, class Real, class Values = Number[3][4]>
   class GaussGradients
   {
   public:
     /// @param scale  by axis, an eighth of the derivative of the cube's coordinate along it.
     SOFTCELL_HOST_DEVICE explicit GaussGradients(const Real *scale) : scale_(scale) {}
+    SOFTCELL_HOST_DEVICE GaussGradients(const Real *scale, const Values &values)
+        : scale_(scale), values_(values)
+    {
+    }
 
     /// Takes the derivatives of the function with the values v at the corners.
     SOFTCELL_HOST_DEVICE void evaluate(const Corners<Number> &v)
@@ -150,7 +155,7 @@ namespace softcell
     }
 
     const Real *scale_;
-    Number values_[3][4];
+    Values values_; // by axis and line
   };
 
   /// The same at any points: by the coefficients of the products of the cube's coordinates.

@@ -12,7 +12,7 @@
 
 namespace softcell
 {
-  const std::vector<std::string> laws{"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"};
+  const std::vector<std::string> all_laws{"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"};
 
   struct Problem
   {

@@ -72,7 +72,7 @@ namespace
       for (const std::string method : {"weighted cell", "moment fitting", "sparse grid"})
       {
         const Problem p = problem(type, method, 5);
-        for (const std::string &model : laws)
+        for (const std::string &model : all_laws)
         {
           SCOPED_TRACE(type + ' ' + method + ' ' + model);
           const Material material(model, 5000, 0.3);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// CudaElasticity for any device; what instantiates it includes this.
+#pragma once
+
+#include "brick_kernels.h"
+
+#include <softcell/base/device_launch.h>
+#include <softcell/base/exceptions.h>
+#include <softcell/operators/cuda_elasticity.h>
+
+#include <numeric>
+
+namespace softcell
+{
+  template <class Real, class Device>
+  CudaElasticity<Real, Device>::CudaElasticity(const CellBricks<Real> &bricks,
+                                               const Material &material)
+      : material_(material),
+        n_entries_(bricks.n_entries),
+        row_(bricks.row),
+        plane_(bricks.plane),
+        spacing_{bricks.spacing[0], bricks.spacing[1], bricks.spacing[2]},
+        entries_(bricks.entries),
+        weight_packs_(bricks.weight_packs),
+        weights_(bricks.weights),
+        node_bricks_(bricks.node_bricks),
+        u_(3 * n_entries_),
+        sums_(6 * entries_.size() * bricks.n_corners),
+        n_inverted_(entries_.size())
+  {
+    material_.visit([&](const auto &law) {
+      if (has_costly_pressure<std::decay_t<decltype(law)>>)
+        pressures_ = Field(8 * bricks.n_cells * entries_.size());
+    });
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::hold(const std::vector<unsigned char> &held)
+  {
+    held_ = DeviceArray<unsigned char, Device>(held);
+  }
+
+  template <class Real>
+  Components<const Real> components(const Real *const field, const std::size_t n_entries)
+  {
+    return {{field, field + n_entries, field + 2 * n_entries}};
+  }
+
+  template <class Real, class Device>
+  template <class Action>
+  void CudaElasticity<Real, Device>::run_cells(const Action &action)
+  {
+    CellGeometry<Real> geometry;
+    for (int v = 0; v < 8; ++v)
+      geometry.corners[v] = v % 2 + row_ * (v / 2 % 2) + plane_ * (v / 4);
+    geometry.weight = spacing_[0] * spacing_[1] * spacing_[2] / 8;
+    for (int d = 0; d < 3; ++d)
+      geometry.scale[d] = 1 / (4 * spacing_[d]);
+    Device::launch(BrickKernel<Real, Action>{geometry, action, int(row_), int(plane_),
+                                             int(entries_.size()), entries_.data(),
+                                             weight_packs_.data(), weights_.data(), sums_.data(),
+                                             n_inverted_.data()},
+                   entries_.size());
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::sum_up(Field &y, const int n_components)
+  {
+    Device::launch(NodeKernel<Real>{int(row_), int(plane_), int(entries_.size()), n_components,
+                                    n_entries_, node_bricks_.data(), held_.data(), sums_.data(),
+                                    y.data()},
+                   node_bricks_.size());
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::throw_if_inverted() const
+  {
+    std::vector<int> counts(n_inverted_.size());
+    n_inverted_.copy_to(counts.data());
+    if (const int n = std::accumulate(counts.begin(), counts.end(), 0); n > 0)
+      throw InvertedPoint(std::to_string(n) +
+                          (n == 1 ? " integration point is" : " integration points are") +
+                          " turned inside out (J <= 0).");
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::residual(const Field &u, Field &r)
+  {
+    material_.visit([&](const auto &double_law) {
+      const auto law = rounded<Real>(double_law);
+      run_cells(ResidualAction<Real, std::decay_t<decltype(law)>>{
+        law, components<Real>(u.data(), n_entries_)});
+    });
+    sum_up(r, 3);
+    throw_if_inverted();
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::set_state(const Field &u)
+  {
+    u_.copy_from(u);
+    material_.visit([&](const auto &double_law) {
+      const auto law = rounded<Real>(double_law);
+      run_cells(PressureAction<Real, std::decay_t<decltype(law)>>{
+        law, components<Real>(u_.data(), n_entries_), pressures_.data()});
+    });
+    throw_if_inverted();
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::vmult(Field &y, const Field &x)
+  {
+    material_.visit([&](const auto &double_law) {
+      const auto law = rounded<Real>(double_law);
+      run_cells(TangentAction<Real, std::decay_t<decltype(law)>>{
+        law, components<Real>(u_.data(), n_entries_), components<Real>(x.data(), n_entries_),
+        pressures_.data()});
+    });
+    sum_up(y, 3);
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::diagonal(Field &blocks)
+  {
+    material_.visit([&](const auto &double_law) {
+      const auto law = rounded<Real>(double_law);
+      run_cells(DiagonalAction<Real, std::decay_t<decltype(law)>>{
+        law, components<Real>(u_.data(), n_entries_), pressures_.data()});
+    });
+    sum_up(blocks, 6);
+  }
+} // namespace softcell

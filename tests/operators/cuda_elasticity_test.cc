@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The kernels of the graphics card, run on the host, against the operator of the host.
+
+#include <softcell/operators/cuda_elasticity.h>
+#include <softcell/operators/matrix_free_elasticity.h>
+
+#include "matrix_free_problems.h"
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/immersed.h>
+
+#include <fstream>
+
+namespace
+{
+  using namespace softcell;
+
+  template <class Real>
+  using OnDevice = DeviceArray<Real, Serial>;
+
+  template <class Real>
+  OnDevice<Real> on_device(const softcell::View<const Real> values)
+  {
+    return OnDevice<Real>(std::vector<Real>(values.begin(), values.end()));
+  }
+
+  /// The largest difference, relative to the largest value.
+  template <class Real>
+  double difference(const OnDevice<Real> &a, const softcell::View<const Real> b)
+  {
+    std::vector<Real> values(a.size());
+    a.copy_to(values.data());
+    double difference = 0, largest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      difference = std::max<double>(difference, std::abs(values[i] - b[i]));
+      largest    = std::max<double>(largest, std::abs(b[i]));
+    }
+    return difference / largest;
+  }
+
+  template <class Real>
+  void expect_kernels_agree(const Discretization &discretization,
+                            const Material &material,
+                            const double bound)
+  {
+    const CellLattice lattice = cell_lattice(discretization);
+    LatticeVector<Real> u(lattice.nodes), x(lattice.nodes), y(lattice.nodes);
+    copy(wavy(discretization, 0.03, 2), lattice.entries, u);
+    copy(wavy(discretization, 1, 7), lattice.entries, x);
+    const UniformCells<Real> cells(lattice);
+    MatrixFreeElasticity<Real> host(cells, material);
+    CudaElasticity<Real, Serial> device(CellBricks<Real>(lattice), material);
+    const auto device_u = on_device<Real>(u.entries()), device_x = on_device<Real>(x.entries());
+    OnDevice<Real> device_y(device_x.size()), device_blocks(2 * device_x.size());
+
+    device.residual(device_u, device_y);
+    host.residual(u, y);
+    EXPECT_LT(difference<Real>(device_y, y.entries()), bound);
+
+    device.set_state(device_u);
+    host.set_state(u);
+    device.vmult(device_y, device_x);
+    host.vmult(y, x);
+    EXPECT_LT(difference<Real>(device_y, y.entries()), bound);
+
+    LatticeBlocks<Real> blocks(lattice.nodes);
+    device.diagonal(device_blocks);
+    host.diagonal(blocks);
+    EXPECT_LT(difference<Real>(device_blocks, blocks.entries()), bound);
+  }
+
+  // The box has bricks of full cells alone, and more cells along y than bricks have room for.
+  TEST(CudaElasticity, IsTheOneOfTheHost)
+  {
+    for (const std::string type : {"cylinder", "sphere", "box"})
+    {
+      const Problem p = problem(type, "weighted cell", type == "box" ? 9 : 7);
+      for (const std::string &model : all_laws)
+      {
+        SCOPED_TRACE(type + ' ' + model);
+        const Material material(model, 5000, 0.3);
+        expect_kernels_agree<double>(*p.discretization, material, 1e-12);
+        expect_kernels_agree<float>(*p.discretization, material, 1e-5);
+      }
+    }
+  }
+
+  TEST(CudaElasticity, IsTheOneOfTheHostOnALiver)
+  {
+    GeometryParameters geometry;
+    geometry.type   = "image";
+    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
+    geometry.scale  = 0.001;
+    geometry.labels = {255};
+    if (!std::ifstream(geometry.file))
+      GTEST_SKIP() << geometry.file << " is missing";
+    std::vector<std::string> remarks;
+    const auto body = make_body(geometry, remarks);
+    GridParameters grid;
+    grid.cells = {12};
+    const Immersed liver("weighted cell", 1, grid, {2}, *body, MPI_COMM_SELF);
+    const Material material("Neo-Hookean", 5000, 0.45);
+    expect_kernels_agree<double>(liver, material, 1e-12);
+    expect_kernels_agree<float>(liver, material, 1e-5);
+  }
+
+  TEST(CudaElasticity, IsZeroInHeldUnknowns)
+  {
+    const Problem p           = problem("sphere", "weighted cell", 6);
+    const CellLattice lattice = cell_lattice(*p.discretization);
+    const Material material("linear", 5000, 0.3);
+    CudaElasticity<double, Serial> device(CellBricks<double>(lattice), material);
+    LatticeVector<double> x(lattice.nodes);
+    copy(wavy(*p.discretization, 1, 7), lattice.entries, x);
+    const auto device_x = on_device<double>(x.entries());
+    OnDevice<double> all(device_x.size()), free(device_x.size());
+    device.set_state(OnDevice<double>(device_x.size()));
+    device.vmult(all, device_x);
+
+    const std::size_t n = lattice.nodes.size(), node = lattice.entries[20];
+    std::vector<unsigned char> held(n, 0);
+    held[node] = 1 + 4;
+    device.hold(held);
+    device.vmult(free, device_x);
+    std::vector<double> expected(all.size());
+    all.copy_to(expected.data());
+    EXPECT_NE(expected[node], 0);
+    EXPECT_NE(expected[node + n], 0);
+    expected[node] = expected[node + 2 * n] = 0;
+    EXPECT_EQ(difference<double>(free, {expected.data(), expected.size()}), 0);
+  }
+
+  TEST(CudaElasticity, RefusesWhatItCannotDo)
+  {
+    const Problem fitted = problem("sphere", "moment fitting", 4);
+    EXPECT_THROW(CellBricks<float>(cell_lattice(*fitted.discretization)), BadInput);
+
+    const Problem p           = problem("sphere", "weighted cell", 4);
+    const CellLattice lattice = cell_lattice(*p.discretization);
+    CudaElasticity<float, Serial> device(CellBricks<float>(lattice),
+                                         Material("Neo-Hookean", 5000, 0.3));
+    LatticeVector<float> u(lattice.nodes);
+    Vector mirrored = p.discretization->make_vector();
+    for (unsigned int node = 0; node < p.discretization->n_owned_nodes(); ++node)
+      mirrored.local_element(3 * node) = -2 * p.discretization->node_positions()[node][0];
+    copy(mirrored, lattice.entries, u);
+    const auto device_u = on_device<float>(u.entries());
+    OnDevice<float> r(device_u.size());
+    EXPECT_THROW(device.residual(device_u, r), InvertedPoint);
+    EXPECT_THROW(device.set_state(device_u), InvertedPoint);
+  }
+} // namespace
