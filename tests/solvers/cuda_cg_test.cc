@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The conjugate gradients of the graphics card, run on the host.
+
+#include <softcell/solvers/cuda_cg.h>
+
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/geometry/shapes.h>
+#include <softcell/operators/cuda_elasticity.h>
+#include <softcell/operators/elasticity.h>
+#include <softcell/operators/uniform_cells.h>
+#include <softcell/solvers/linear_solver.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+  using namespace softcell;
+
+  template <class Real>
+  using Array = DeviceArray<Real, Serial>;
+
+  /// A clamped ball of weighted cells under its weight.
+  struct ClampedBall
+  {
+    std::unique_ptr<Body> body = make_sphere(1);
+    std::unique_ptr<Immersed> cells;
+    std::vector<unsigned int> clamped; // unknowns
+    Vector load;
+
+    ClampedBall()
+    {
+      GridParameters grid;
+      grid.cells = {6};
+      cells =
+        std::make_unique<Immersed>("weighted cell", 1, grid, CutParameters(), *body, MPI_COMM_SELF);
+      load          = cells->make_vector();
+      double bottom = 0;
+      for (const Point &X : cells->node_positions())
+        bottom = std::min(bottom, X[2]);
+      for (unsigned int node = 0; node < cells->n_owned_nodes(); ++node)
+        if (cells->node_positions()[node][2] < bottom + 1e-6)
+          for (unsigned int c = 0; c < dim; ++c)
+            clamped.push_back(3 * node + c);
+        else
+          load.local_element(3 * node) = 1;
+    }
+  };
+
+  /// Solves on the device.
+  template <class Real>
+  Vector solve_on_device(const ClampedBall &ball,
+                         const Material &material,
+                         const double tolerance,
+                         std::vector<double> &history)
+  {
+    const CellLattice lattice = cell_lattice(*ball.cells);
+    CudaElasticity<Real, Serial> tangent(CellBricks<Real>(lattice), material);
+    std::vector<unsigned char> held(lattice.nodes.size(), 0);
+    for (const unsigned int unknown : ball.clamped)
+      held[lattice.entries[unknown / 3]] |= 1 << unknown % 3;
+    tangent.hold(held);
+
+    LatticeVector<Real> field(lattice.nodes);
+    copy(ball.load, lattice.entries, field);
+    const std::size_t size = field.entries().size();
+    Array<Real> x(size), b(size), blocks(2 * size);
+    tangent.set_state(x);
+    tangent.diagonal(blocks);
+    b.copy_from(field.entries().data());
+    CudaCG<Real, Serial> cg(size);
+    cg.set_diagonal(blocks);
+    cg.solve([&](auto &y, const auto &p) { tangent.vmult(y, p); }, x, b, tolerance, 500);
+    history = cg.history();
+    x.copy_to(field.entries().data());
+    Vector result = ball.cells->make_vector();
+    copy(field, lattice.entries, result);
+    return result;
+  }
+
+  // The history is compared while it is far above rounding errors, which grow with iterations.
+  TEST(CudaCG, IteratesAsTheHostDoes)
+  {
+    const ClampedBall ball;
+    const Material material("Neo-Hookean", 5000, 0.3);
+    const Elasticity elasticity(*ball.cells, {material});
+    BlockMatrix K(ball.cells->partitioner(), elasticity.couplings());
+    elasticity.add_tangent(ball.cells->make_vector(), K);
+    K.compress();
+    K.constrain(ball.clamped, 1.);
+    LinearSolverParameters parameters;
+    parameters.preconditioner = "Jacobi";
+    parameters.tolerance      = 1e-8;
+    const auto solver         = make_linear_solver(parameters);
+    solver->set_matrix(K, ball.cells->node_positions(), ball.clamped);
+    Vector expected = ball.cells->make_vector();
+    solver->solve(expected, ball.load);
+
+    std::vector<double> history;
+    Vector x = solve_on_device<double>(ball, material, 1e-8, history);
+    ASSERT_EQ(history.size(), solver->history().size());
+    for (unsigned int i = 0; i < history.size(); ++i)
+      EXPECT_NEAR(history[i], solver->history()[i], 1e-10);
+    x -= expected;
+    EXPECT_LT(x.linfty_norm(), 1e-10 * expected.linfty_norm());
+
+    Vector rough = solve_on_device<float>(ball, material, 1e-5, history);
+    rough -= expected;
+    EXPECT_LT(rough.linfty_norm(), 1e-3 * expected.linfty_norm());
+  }
+
+  /// A x = entries * x
+  struct Diagonal
+  {
+    std::vector<double> entries;
+
+    unsigned int solve(const std::vector<double> &b, std::vector<double> &x) const
+    {
+      const std::size_t n = entries.size();
+      Array<double> device_b(b), device_x(n), ones(std::vector<double>(n, 1.));
+      CudaCG<double, Serial> cg(n);
+      cg.set_diagonal(ones);
+      const unsigned int iterations = cg.solve(
+        [&](auto &y, const auto &p) {
+          for (std::size_t i = 0; i < n; ++i)
+            y.data()[i] = entries[i] * p.data()[i];
+        },
+        device_x, device_b, 1e-12, 5);
+      x.resize(n);
+      device_x.copy_to(x.data());
+      return iterations;
+    }
+  };
+
+  // More entries than all threads of all blocks, and a rest.
+  TEST(CudaCG, NeedsOneIterationPerEigenvalue)
+  {
+    Diagonal A;
+    std::vector<double> b, x;
+    for (unsigned int i = 0; i < 70001; ++i)
+    {
+      A.entries.push_back(1 + i % 3);
+      b.push_back(1);
+    }
+    EXPECT_EQ(A.solve(b, x), 3U);
+    for (unsigned int i = 0; i < x.size(); ++i)
+      ASSERT_NEAR(x[i], 1. / (1 + i % 3), 1e-12);
+  }
+
+  TEST(CudaCG, StopsAtNegativeCurvature)
+  {
+    std::vector<double> x;
+    EXPECT_EQ((Diagonal{{-4, -4}}.solve({1, 1}, x)), 1U);
+    EXPECT_DOUBLE_EQ(x[0], 0.25);
+    EXPECT_EQ((Diagonal{{4, -1}}.solve({1, 0.5}, x)), 2U);
+    // the first step: 1.25 / (4 - 0.25)
+    EXPECT_DOUBLE_EQ(x[0], 1 / 3.);
+    EXPECT_DOUBLE_EQ(x[1], 0.5 / 3);
+    EXPECT_THROW((Diagonal{{1, 2, 3, 4, 5, 6, 7}}.solve({1, 1, 1, 1, 1, 1, 1}, x)), NotConverged);
+    EXPECT_THROW((Diagonal{{1, NAN}}.solve({1, 1}, x)), NotConverged);
+  }
+} // namespace
