@@ -12,15 +12,16 @@
 
 namespace softcell
 {
-  namespace
-  {
-    template <class Real>
-    constexpr unsigned int batch_width = std::experimental::native_simd<Real>::size();
-  }
+  template <class Real>
+  const unsigned int FlatPatches<Real>::pack_width = std::experimental::native_simd<Real>::size();
 
   template <class Real>
-  FlatPatches<Real>::FlatPatches(const Discretization &discretization)
-      : n_nodes_(discretization.node_positions().size())
+  FlatPatches<Real>::FlatPatches(const Discretization &discretization,
+                                 const unsigned int width,
+                                 const unsigned int spare)
+      : n_nodes_(discretization.node_positions().size()),
+        points_(width, spare),
+        nodes_(width, spare)
   {
     if (const unsigned int n =
           dealii::Utilities::MPI::n_mpi_processes(discretization.communicator());
@@ -29,12 +30,14 @@ namespace softcell
                      std::to_string(n) + "; start the program without mpirun.");
     add_points(discretization);
     make_node_rows();
+    points_.forget_changes();
+    nodes_.forget_changes();
   }
 
   template <class Real>
   void FlatPatches<Real>::add_points(const Discretization &discretization)
   {
-    constexpr unsigned int W = batch_width<Real>;
+    const unsigned int W = points_.width();
     PatchStorage storage;
     unsigned int lane = W; // of the next point in the last batch
     for (unsigned int i = 0; i < discretization.n_patches(); ++i)
@@ -49,25 +52,19 @@ namespace softcell
         {
           lane = 0;
           labels_.push_back(patch.label(q));
-          point_starts_.push_back(point_starts_.back());
+          points_.add_batch(n);
           weights_.resize(weights_.size() + W, Real(0));
         }
-        const std::size_t first = point_starts_.end()[-2];
-        if (first + n > point_starts_.back())
-        {
-          point_starts_.back() = first + n;
-          nodes_.resize((first + n) * W, patch.nodes[0]);
-          point_gradients_.resize((first + n) * 3 * W, Real(0));
-        }
+        points_.make_room(n);
+        const std::size_t row = (labels_.size() - 1) * W + lane++;
+        weights_[row]         = patch.weights[q];
         for (unsigned int k = 0; k < n; ++k)
         {
-          nodes_[(first + k) * W + lane] = patch.nodes[k];
+          Real gradient[3];
           for (unsigned int d = 0; d < dim; ++d)
-            point_gradients_[((first + k) * 3 + d) * W + lane] =
-              patch.shapes->gradient(q)[d * n + k];
+            gradient[d] = patch.shapes->gradient(q)[d * n + k];
+          points_.append(row, patch.nodes[k], gradient);
         }
-        weights_[(labels_.size() - 1) * W + lane] = patch.weights[q];
-        ++lane;
       }
     }
   }
@@ -75,58 +72,89 @@ namespace softcell
   template <class Real>
   void FlatPatches<Real>::make_node_rows()
   {
-    constexpr unsigned int W  = batch_width<Real>;
+    const unsigned int W      = points_.width();
     const auto for_each_entry = [&](const auto &f) {
-      for (std::size_t b = 0; b < labels_.size(); ++b)
-        for (std::size_t pack = point_starts_[b]; pack < point_starts_[b + 1]; ++pack)
+      const RowArrays<Real> rows = points_.arrays();
+      for (std::size_t b = 0; b < rows.n_batches; ++b)
+        for (std::size_t pack = rows.starts[b]; pack < rows.starts[b + 1]; ++pack)
           for (unsigned int lane = 0; lane < W; ++lane)
           {
-            const Real *const g = &point_gradients_[pack * 3 * W + lane];
-            if (weights_[b * W + lane] != 0 && (g[0] != 0 || g[W] != 0 || g[2 * W] != 0))
-              f(nodes_[pack * W + lane], 9 * W * b + lane, g);
+            const Real *const g = &rows.gradients[pack * 3 * W + lane];
+            if (g[0] != 0 || g[W] != 0 || g[2 * W] != 0)
+              f(rows.numbers[pack * W + lane], 9 * W * b + lane, g);
           }
     };
-
     std::vector<unsigned int> lengths((n_nodes_ + W - 1) / W * W, 0);
     for_each_entry([&](const unsigned int node, std::size_t, const Real *) { ++lengths[node]; });
     for (auto batch = lengths.begin(); batch != lengths.end(); batch += W)
-      node_starts_.push_back(node_starts_.back() + *std::max_element(batch, batch + W));
-    points_.resize(node_starts_.back() * W, 0);
-    node_gradients_.resize(node_starts_.back() * 3 * W, Real(0));
-
-    std::fill(lengths.begin(), lengths.end(), 0);
+      nodes_.add_batch(*std::max_element(batch, batch + W));
     for_each_entry([&](const unsigned int node, const std::size_t point, const Real *const g) {
-      const std::size_t pack       = node_starts_[node / W] + lengths[node]++;
-      points_[pack * W + node % W] = point;
-      for (unsigned int d = 0; d < dim; ++d)
-        node_gradients_[(pack * 3 + d) * W + node % W] = g[d * W];
+      nodes_.append(node, point, g, W);
     });
+  }
+
+  template <class Real>
+  bool FlatPatches<Real>::change(const std::size_t row,
+                                 const Real weight,
+                                 const std::vector<unsigned int> &nodes,
+                                 const std::vector<Real> &gradients)
+  {
+    const unsigned int W     = points_.width();
+    const std::size_t number = row / W * 9 * W + row % W;
+    if (nodes.size() > points_.room(row))
+      return false;
+    for (const unsigned int node : nodes)
+      if (!nodes_.has(node, number) && nodes_.length(node) == nodes_.room(node))
+        return false;
+    points_.clear(row, [&](const unsigned int node) { nodes_.remove(node, number); });
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+      points_.append(row, nodes[k], &gradients[3 * k]);
+      nodes_.append(nodes[k], number, &gradients[3 * k]);
+    }
+    weights_[row] = weight;
+    return true;
+  }
+
+  template <class Real>
+  RowChanges<Real> FlatPatches<Real>::take_changes()
+  {
+    RowChanges<Real> changes;
+    points_.take_changes(changes, weights_.data());
+    nodes_.take_changes(changes, nullptr);
+    return changes;
+  }
+
+  template <class Real>
+  FlatArrays<Real> FlatPatches<Real>::arrays() const
+  {
+    return {points_.width(), n_nodes_,        points_.arrays(),
+            nodes_.arrays(), weights_.data(), labels_.data()};
   }
 
   template <class Real>
   typename FlatPatches<Real>::PointBatch FlatPatches<Real>::point_batch(const std::size_t b) const
   {
-    constexpr unsigned int W = batch_width<Real>;
-    const std::size_t first  = point_starts_[b];
-    return {labels_[b], static_cast<unsigned int>(point_starts_[b + 1] - first),
-            nodes_.data() + first * W, point_gradients_.data() + first * 3 * W,
+    const unsigned int W       = points_.width();
+    const RowArrays<Real> rows = points_.arrays();
+    const std::size_t first    = rows.starts[b];
+    return {labels_[b], rows.lengths[b], rows.numbers + first * W, rows.gradients + first * 3 * W,
             weights_.data() + b * W};
   }
 
   template <class Real>
   typename FlatPatches<Real>::NodeBatch FlatPatches<Real>::node_batch(const std::size_t b) const
   {
-    constexpr unsigned int W = batch_width<Real>;
-    const std::size_t first  = node_starts_[b];
-    return {static_cast<unsigned int>(node_starts_[b + 1] - first), points_.data() + first * W,
-            node_gradients_.data() + first * 3 * W};
+    const unsigned int W       = nodes_.width();
+    const RowArrays<Real> rows = nodes_.arrays();
+    const std::size_t first    = rows.starts[b];
+    return {rows.lengths[b], rows.numbers + first * W, rows.gradients + first * 3 * W};
   }
 
   template <class Real>
   std::size_t FlatPatches<Real>::memory() const
   {
-    return (nodes_.size() + points_.size()) * sizeof(unsigned int) +
-           (point_gradients_.size() + node_gradients_.size() + weights_.size()) * sizeof(Real);
+    return points_.memory() + nodes_.memory() + weights_.size() * sizeof(Real);
   }
 
   template class FlatPatches<double>;

@@ -20,7 +20,8 @@ namespace softcell
   class FlatElasticity
   {
   public:
-    /// @param patches    must outlive the object.
+    /// @param patches    with packs of the host; must outlive the object. After a change of rows
+    ///                   call set_state().
     /// @param materials  one per label.
     FlatElasticity(const FlatPatches<Real> &patches, std::vector<Material> materials);
 
