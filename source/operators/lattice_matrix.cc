@@ -77,8 +77,7 @@ namespace softcell
   }
 
   template <class Real>
-  template <class OtherReal>
-  LatticeMatrix<Real>::LatticeMatrix(const LatticeMatrix<OtherReal> &fine,
+  LatticeMatrix<Real>::LatticeMatrix(const LatticeMatrix &fine,
                                      const LatticeUnknowns &fine_unknowns,
                                      const NodeLattice &nodes)
   {
@@ -191,11 +190,4 @@ namespace softcell
   template class LatticeMatrix<double>;
   template class LatticeMatrix<float>;
   template LatticeMatrix<float>::LatticeMatrix(const LatticeMatrix<double> &);
-  template LatticeMatrix<double>::LatticeMatrix(const LatticeMatrix<double> &);
-  template LatticeMatrix<float>::LatticeMatrix(const LatticeMatrix<float> &,
-                                               const LatticeUnknowns &,
-                                               const NodeLattice &);
-  template LatticeMatrix<double>::LatticeMatrix(const LatticeMatrix<double> &,
-                                                const LatticeUnknowns &,
-                                                const NodeLattice &);
 } // namespace softcell

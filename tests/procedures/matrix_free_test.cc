@@ -53,4 +53,28 @@ namespace
       expect_the_same(p);
     }
   }
+
+  // Euler's strain for a column clamped at both ends, pi^2 (r / l)^2 = 0.07, is passed by far: the
+  // tangent of the straight column is indefinite then. Bent aside it has less energy than straight.
+  TEST(MatrixFree, FollowsAColumnBeyondBuckling)
+  {
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      GTEST_SKIP() << "one rank alone";
+    Parameters p           = body_of("cylinder", {"weighted cell", 1}, 4);
+    p.geometry.length      = 6;
+    p.material.density     = 1;
+    p.loads.gravity        = Direction({0.1, 0, 0}); // tells to which side
+    p.regions              = {{"base", "z < 1e-6"}, {"top", "z > 6 - 1e-6"}};
+    p.load_entries         = {{"base", "clamp"}, {"top", "displacement 0, 0, -1.2"}};
+    p.load_steps.steps     = "adaptive";
+    p.linear_solver.solver = "CG"; // a direct one finds equilibria that are not stable
+    const auto energy      = [&p](const char *preconditioner) {
+      p.linear_solver.preconditioner = preconditioner;
+      return solve(p).row.number("strain_energy");
+    };
+    const double bent     = energy("geometric multigrid");
+    const double straight = 0.5 * p.material.young_modulus * 0.04 * M_PI * 0.25 * 6;
+    EXPECT_LT(bent, 0.75 * straight);
+    EXPECT_NEAR(bent, energy("Jacobi"), 1e-9 * bent);
+  }
 } // namespace

@@ -24,8 +24,7 @@ namespace softcell
                   const NodeLattice &nodes);
 
     /// P^T A P with coarse.interpolate() as P: the same in coarse unknowns.
-    template <class OtherReal>
-    LatticeMatrix(const LatticeMatrix<OtherReal> &fine,
+    LatticeMatrix(const LatticeMatrix &fine,
                   const LatticeUnknowns &fine_unknowns,
                   const NodeLattice &nodes);
 
