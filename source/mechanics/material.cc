@@ -49,4 +49,12 @@ namespace softcell
       throw BadInput(section + "/Model is '" + model +
                      "'; choose Neo-Hookean, Saint-Venant-Kirchhoff or linear.");
   }
+
+  Material Material::invertible() const
+  {
+    Material material = *this;
+    if (const auto *const law = std::get_if<NeoHookean<>>(&law_))
+      material.law_ = InvertibleNeoHookean<>{law->lambda, law->mu};
+    return material;
+  }
 } // namespace softcell

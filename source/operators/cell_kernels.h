@@ -166,13 +166,15 @@ namespace softcell
   constexpr bool has_costly_pressure = false;
   template <class Real>
   constexpr bool has_costly_pressure<NeoHookean<Real>> = true;
+  template <class Real>
+  constexpr bool has_costly_pressure<InvertibleNeoHookean<Real>> = true;
 
   /// lambda v, with the logarithm of `Cells` in place of the library's.
   template <class Cells, class Law, class Number>
   SOFTCELL_HOST_DEVICE Number pressure(const Law &law, const Matrix3<Number> &F)
   {
     if constexpr (has_costly_pressure<Law>)
-      return law.lambda * Cells::log1p(volume_change(F));
+      return law.lambda * law.volumetric_strain(F, [](const Number &x) { return Cells::log1p(x); });
     else
       return law.lambda * law.volumetric_strain(F);
   }
@@ -211,6 +213,25 @@ namespace softcell
     return 3 * I3 / (I2 + 2 * sqrt(max(I2 * I2 - 3 * I1 * I3, Number(0))));
   }
 
+  /// What |mu - lambda v| may be, so that the tangent is positive semi-definite.
+  template <class Real, class Number>
+  SOFTCELL_HOST_DEVICE Number definite_limit(const NeoHookean<Real> &law, const Matrix3<Number> &F)
+  {
+    return law.mu * smallest_eigenvalue(right_cauchy_green(F));
+  }
+
+  /// 0 where the law is continued, as its derivatives are others there.
+  template <class Real, class Number>
+  SOFTCELL_HOST_DEVICE Number definite_limit(const InvertibleNeoHookean<Real> &law,
+                                             const Matrix3<Number> &F)
+  {
+    using std::max;
+    using std::min;
+    const Number share = determinant(F) / law.template smallest_regular<Number>() - Number(1);
+    return law.mu * min(max(share, Number(0)), Number(1)) *
+           smallest_eigenvalue(right_cauchy_green(F));
+  }
+
   /// Takes the pressures lambda v at u, by number of the point.
   /// @param is_tensile  keeps them where the tangent is positive semi-definite, see Stresses.
   /// @return how many points are turned inside out.
@@ -236,7 +257,7 @@ namespace softcell
         auto p = pressure<Cells>(law, F);
         if (is_tensile)
         {
-          const auto limit = law.mu * smallest_eigenvalue(right_cauchy_green(F));
+          const auto limit = definite_limit(law, F);
           p                = min(max(p, law.mu - limit), law.mu + limit);
         }
         Cells::store(p, pressures, number);

@@ -19,6 +19,7 @@
 // of Real.
 #pragma once
 
+#include <softcell/mechanics/invertible_neo_hookean.h>
 #include <softcell/mechanics/linear_elastic.h>
 #include <softcell/mechanics/neo_hookean.h>
 #include <softcell/mechanics/saint_venant_kirchhoff.h>

@@ -34,6 +34,10 @@ namespace softcell
       return std::visit(std::forward<Function>(f), law_);
     }
 
+    /// The same for motions that may turn the body inside out: InvertibleNeoHookean in place of
+    /// Neo-Hookean.
+    Material invertible() const;
+
     /// lambda + 2 mu, the stiffness against strain along one axis alone. Units: Pa
     double longitudinal_modulus() const
     {
@@ -52,7 +56,8 @@ namespace softcell
     }
 
   private:
-    std::variant<NeoHookean<>, SaintVenantKirchhoff<>, LinearElastic<>> law_;
+    std::variant<NeoHookean<>, SaintVenantKirchhoff<>, LinearElastic<>, InvertibleNeoHookean<>>
+      law_;
     double density_;
   };
 } // namespace softcell

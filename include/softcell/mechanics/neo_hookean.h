@@ -20,7 +20,14 @@ namespace softcell
       return J > Number(0);
     }
 
-    /// ln J
+    /// ln J, with another function for ln(1 + x).
+    template <class Number, class Log1p>
+    SOFTCELL_HOST_DEVICE static Number volumetric_strain(const Matrix3<Number> &F,
+                                                         const Log1p &log1p)
+    {
+      return log1p(volume_change(F));
+    }
+
     template <class Number>
     SOFTCELL_HOST_DEVICE static Number volumetric_strain(const Matrix3<Number> &F)
     {

@@ -115,18 +115,42 @@ namespace softcell
            A(0, 2) * (A(1, 0) * A(2, 1) - A(1, 1) * A(2, 0));
   }
 
-  /// The inverse of a matrix whose determinant is not 0.
+  /// The matrix of cofactors, d det A / dA; its rows are the cross products of two rows of A.
   template <class Number>
-  SOFTCELL_HOST_DEVICE Matrix3<Number> inverse(const Matrix3<Number> &A)
+  SOFTCELL_HOST_DEVICE Matrix3<Number> cofactor(const Matrix3<Number> &A)
   {
-    Matrix3<Number> B; // of cofactors, first
+    Matrix3<Number> G;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
       {
         const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        B(j, i) = A(i1, j1) * A(i2, j2) - A(i1, j2) * A(i2, j1);
+        G(i, j) = A(i1, j1) * A(i2, j2) - A(i1, j2) * A(i2, j1);
       }
-    const Number s = Number(1) / (A(0, 0) * B(0, 0) + A(0, 1) * B(1, 0) + A(0, 2) * B(2, 0));
+    return G;
+  }
+
+  /// The change of cofactor(A) with A.
+  template <class A, class B>
+  SOFTCELL_HOST_DEVICE Matrix3<Wider<A, B>> cofactor_change(const Matrix3<A> &a,
+                                                            const Matrix3<B> &da)
+  {
+    Matrix3<Wider<A, B>> dG;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+      {
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+        dG(i, j) = a(i1, j1) * da(i2, j2) + a(i2, j2) * da(i1, j1) - a(i1, j2) * da(i2, j1) -
+                   a(i2, j1) * da(i1, j2);
+      }
+    return dG;
+  }
+
+  /// The inverse of a matrix whose determinant is not 0.
+  template <class Number>
+  SOFTCELL_HOST_DEVICE Matrix3<Number> inverse(const Matrix3<Number> &A)
+  {
+    Matrix3<Number> B = transpose(cofactor(A));
+    const Number s    = Number(1) / (A(0, 0) * B(0, 0) + A(0, 1) * B(1, 0) + A(0, 2) * B(2, 0));
     for (Number &b : B.entries)
       b = s * b;
     return B;
