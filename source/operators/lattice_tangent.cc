@@ -3,7 +3,7 @@
 
 #include <softcell/operators/lattice_tangent.h>
 
-#include <limits>
+#include <algorithm>
 
 namespace softcell
 {
@@ -31,7 +31,10 @@ namespace softcell
   LatticeTangent<Real>::LatticeTangent(const CellLattice &cells,
                                        const Material &material,
                                        const LatticeUnknowns &unknowns)
-      : unknowns_(unknowns), cells_(cells), elasticity_(cells_, material)
+      : unknowns_(unknowns),
+        cells_(cells),
+        elasticity_(cells_, material),
+        masses_(lumped<Real>(material.density(), cells))
   {
   }
 
@@ -40,6 +43,19 @@ namespace softcell
   {
     elasticity_.vmult(y, x);
     supports_.add_product(y, x);
+    if (stiffness_ == 1 && mass_ == 0)
+      return;
+    const Real stiffness = stiffness_, mass = mass_, *const m = masses_.component(0);
+    unknowns_.for_each_run([&](const std::size_t begin, const std::size_t end) {
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        Real *const y_c       = y.component(c);
+        const Real *const x_c = x.component(c);
+#pragma omp simd
+        for (std::size_t i = begin; i < end; ++i)
+          y_c[i] = stiffness * y_c[i] + mass * m[i] * x_c[i];
+      }
+    });
   }
 
   template <class Real>
@@ -59,7 +75,8 @@ namespace softcell
       {
         double A[6];
         for (unsigned int k = 0; k < 6; ++k)
-          A[k] = blocks.component(k)[node];
+          A[k] = stiffness_ * blocks.component(k)[node] +
+                 (k < 3 ? mass_ * masses_.component(0)[node] : 0);
         const double largest  = std::max({A[0], A[1], A[2]});
         const bool is_free[3] = {unknowns_.is_free(node, 0), unknowns_.is_free(node, 1),
                                  unknowns_.is_free(node, 2)};
@@ -81,7 +98,8 @@ namespace softcell
   template <class Real>
   std::size_t LatticeTangent<Real>::memory() const
   {
-    return cells_.memory() + elasticity_.memory() + supports_.memory();
+    return cells_.memory() + elasticity_.memory() + supports_.memory() +
+           masses_.entries().size() * sizeof(Real);
   }
 
   template class LatticeTangent<double>;

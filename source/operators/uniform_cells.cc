@@ -17,7 +17,8 @@ namespace softcell
 {
   namespace
   {
-    const char *const multigrid = "Solver/Preconditioner = geometric multigrid ";
+    const char *const multigrid =
+      "What runs without a matrix (Mode = dynamic, Preconditioner = geometric multigrid) ";
 
     const UniformGrid &check(const std::optional<UniformGrid> &grid,
                              const Discretization &discretization)
@@ -38,10 +39,16 @@ namespace softcell
       return *grid;
     }
 
+    const std::vector<Point> &gauss_points()
+    {
+      static const std::vector<Point> points = dealii::QGauss<3>(2).get_points();
+      return points;
+    }
+
     /// Those are the cell's Gauss points.
     bool are_gauss_points(const std::vector<Point> &points)
     {
-      static const std::vector<Point> gauss = dealii::QGauss<3>(2).get_points();
+      const std::vector<Point> &gauss = gauss_points();
       return std::equal(points.begin(), points.end(), gauss.begin(), gauss.end(),
                         [](const Point &a, const Point &b) { return a.distance(b) < 1e-9; });
     }
@@ -111,6 +118,32 @@ namespace softcell
         cells.point_cells.push_back({place, {patch.weights.begin(), patch.weights.end()}, points});
     }
     return cells;
+  }
+
+  template <class Real>
+  LatticeField<Real, 1> lumped(const double density, const CellLattice &cells)
+  {
+    LatticeField<Real, 1> field(cells.nodes);
+    const auto add = [&](const auto &cell, const std::vector<Point> &points) {
+      for (int v = 0; v < 8; ++v)
+      {
+        double sum = 0;
+        for (std::size_t q = 0; q < points.size(); ++q)
+        {
+          double share = cell.weights[q];
+          for (unsigned int d = 0; d < dim; ++d)
+            share *= (v >> d & 1) != 0 ? points[q][d] : 1 - points[q][d];
+          sum += share;
+        }
+        field.component(0)[cells.nodes.entry(cell.place[0] + v % 2, cell.place[1] + v / 2 % 2,
+                                             cell.place[2] + v / 4)] += Real(density * sum);
+      }
+    };
+    for (const GaussCell &cell : cells.gauss_cells)
+      add(cell, gauss_points());
+    for (const PointCell &cell : cells.point_cells)
+      add(cell, cell.points);
+    return field;
   }
 
   template <class Real>
@@ -257,6 +290,8 @@ namespace softcell
 
   template class UniformCells<double>;
   template class UniformCells<float>;
+  template LatticeField<double, 1> lumped(double, const CellLattice &);
+  template LatticeField<float, 1> lumped(double, const CellLattice &);
   template void copy(const Vector &, const std::vector<std::size_t> &, LatticeVector<double> &);
   template void copy(const Vector &, const std::vector<std::size_t> &, LatticeVector<float> &);
   template void copy(const LatticeVector<double> &, const std::vector<std::size_t> &, Vector &);

@@ -41,6 +41,11 @@ namespace softcell
   /// degree 1, with nothing that steadies them, on one rank alone.
   CellLattice cell_lattice(const Discretization &discretization);
 
+  /// The integral of a density over the cells, shared out to the nodes by their shapes: with a mass
+  /// density the diagonal of the lumped mass matrix. Nodes without cells get 0.
+  template <class Real>
+  LatticeField<Real, 1> lumped(double density, const CellLattice &cells);
+
   template <class Real>
   void copy(const Vector &from, const std::vector<std::size_t> &entries, LatticeVector<Real> &to);
 

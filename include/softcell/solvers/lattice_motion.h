@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A body on a uniform grid in motion, without a matrix and in limited time.
+#pragma once
+
+#include <softcell/operators/lattice_tangent.h>
+#include <softcell/solvers/time_integration.h>
+
+#include <chrono>
+#include <limits>
+#include <vector>
+
+namespace softcell
+{
+  /// How a body moves, beside its material.
+  struct MotionParameters
+  {
+    TimeScheme scheme        = TimeScheme::implicit_euler;
+    double mass_damping      = 0; // 1/s
+    double stiffness_damping = 0; // s
+  };
+
+  /// Displacement and velocity of a body, and their steps in time.
+  ///
+  /// Steps solve by conjugate gradients with inverted diagonal blocks, which stop where they are
+  /// when time is over. They begin with the best combination of the last three velocities, which
+  /// often is within some percent of the solution, and keep conjugate to them what follows, so that
+  /// after any number of iterations w (A w - b) = 0 but for what is imposed, see advance(): few
+  /// iterations cannot raise the energy. The blocks are those at rest. Implicit Euler uses tangents
+  /// without compressive stress, which are positive semi-definite (Stresses::tensile); it is of
+  /// first order with any.
+  template <class Real>
+  class LatticeMotion
+  {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /// When a step's linear system may be left.
+    struct Effort
+    {
+      double tolerance            = 1e-2; // relative residual, in the preconditioner's norm
+      unsigned int max_iterations = 1000;
+      Clock::time_point deadline  = Clock::time_point::max(); // after one iteration at least
+    };
+
+    struct Step
+    {
+      unsigned int iterations = 0;
+      double residual         = 0; // relative
+    };
+
+    /// At rest.
+    /// @param material  with the density
+    /// @param held      entries of a LatticeVector whose displacement is imposed.
+    /// @param supports  their tangent, which must not change. Units: N/m
+    LatticeMotion(const CellLattice &cells,
+                  const Material &material,
+                  const std::vector<std::size_t> &held,
+                  LatticeMatrix<Real> supports,
+                  const MotionParameters &parameters);
+
+    /// @param external  the force at u = 0, at the end of the step or, with Newmark, in its middle.
+    ///                  Units: N
+    /// @param imposed   where the held entries are at the end of the step. Units: m
+    Step advance(double dt,
+                 const LatticeVector<Real> &external,
+                 const LatticeVector<Real> &imposed,
+                 const Effort &effort);
+
+    LatticeVector<Real> &displacement()
+    {
+      return u_;
+    }
+    LatticeVector<Real> &velocity()
+    {
+      return v_;
+    }
+    /// The force that held the held entries in the last step, without these nodes' own inertia.
+    /// Elsewhere it is what the linear system is in error. Units: N
+    const LatticeVector<Real> &reaction() const
+    {
+      return reaction_;
+    }
+    /// Units: J
+    double kinetic_energy() const;
+    /// Units: J
+    double strain_energy() const
+    {
+      return tangent_.elasticity().energy(u_);
+    }
+    const LatticeTangent<Real> &tangent() const
+    {
+      return tangent_;
+    }
+
+  private:
+    static constexpr unsigned int n_velocities = 3;
+
+    void linearise();
+    void impulse(const LatticeVector<Real> &external, double h, LatticeVector<Real> &b);
+    void combine(Real stiffness, Real mass);
+    void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
+    void prepare_starts(const LatticeVector<Real> &w);
+    void solve(const Effort &effort, LatticeVector<Real> &w);
+    Step iterate(const Effort &effort, double scale, LatticeVector<Real> &w);
+
+    MotionParameters parameters_;
+    std::vector<std::size_t> held_;
+    LatticeUnknowns unknowns_;
+    LatticeTangent<Real> tangent_;
+    LatticeVector<Real> u_, v_, reaction_;
+    LatticeVector<Real> r_, z_, p_, Ap_;
+    std::vector<LatticeVector<Real>> velocities_, starts_, A_starts_;
+    unsigned int n_starts_ = 0; // that there are
+    Real stiffness_ = 0, mass_ = 0;
+    LatticeBlocks<Real> inverse_diagonal_;
+    Step step_;
+  };
+} // namespace softcell

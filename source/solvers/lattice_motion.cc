@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A body on a uniform grid in motion: its steps' linear systems.
+
+#include <softcell/solvers/lattice_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace softcell
+{
+  template <class Real>
+  LatticeMotion<Real>::LatticeMotion(const CellLattice &cells,
+                                     const Material &material,
+                                     const std::vector<std::size_t> &held,
+                                     LatticeMatrix<Real> supports,
+                                     const MotionParameters &parameters)
+      : parameters_(parameters),
+        held_(held),
+        unknowns_(cells, held),
+        tangent_(cells, material.invertible(), unknowns_),
+        u_(cells.nodes),
+        v_(cells.nodes),
+        reaction_(cells.nodes),
+        r_(cells.nodes),
+        z_(cells.nodes),
+        p_(cells.nodes),
+        Ap_(cells.nodes),
+        velocities_(n_velocities, u_),
+        starts_(n_velocities, u_),
+        A_starts_(n_velocities, u_),
+        inverse_diagonal_(cells.nodes)
+  {
+    tangent_.supports() = std::move(supports);
+  }
+
+  template <class Real>
+  double LatticeMotion<Real>::kinetic_energy() const
+  {
+    double sum = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const Real *const v = v_.component(c), *const m = tangent_.masses().component(0);
+      for (std::size_t i = 0; i < v_.lattice().size(); ++i)
+        sum += 0.5 * m[i] * v[i] * v[i];
+    }
+    return sum;
+  }
+
+  template <class Real>
+  typename LatticeMotion<Real>::Step
+  LatticeMotion<Real>::advance(const double dt,
+                               const LatticeVector<Real> &external,
+                               const LatticeVector<Real> &imposed,
+                               const Effort &effort)
+  {
+    double h = dt;
+    EquationOfMotion<LatticeVector<Real>> motion;
+    motion.mass_damping      = parameters_.mass_damping;
+    motion.stiffness_damping = parameters_.stiffness_damping;
+    motion.impulse = [&](const auto &, const auto &, const double, const double step, auto &b) {
+      h = step;
+      impulse(external, h, b);
+    };
+    motion.solve = [&](const double mass, const double stiffness, const auto &b, auto &w) {
+      r_ = b;
+      combine(Real(stiffness), Real(mass));
+      solve(effort, w);
+    };
+    for (const std::size_t entry : held_) // as fast as they have to be
+      v_.entries()[entry] = (imposed.entries()[entry] - u_.entries()[entry]) / Real(dt);
+    softcell::advance(motion, parameters_.scheme, 0, dt, u_, v_);
+    unknowns_.for_each(reaction_, r_,
+                       [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
+    return step_;
+  }
+
+  template <class Real>
+  void LatticeMotion<Real>::linearise()
+  {
+    const bool is_euler = parameters_.scheme == TimeScheme::implicit_euler;
+    tangent_.elasticity().set_state(u_, is_euler ? Stresses::tensile : Stresses::all);
+  }
+
+  template <class Real>
+  void LatticeMotion<Real>::impulse(const LatticeVector<Real> &external,
+                                    const double h,
+                                    LatticeVector<Real> &b)
+  {
+    linearise();
+    tangent_.elasticity().residual(u_, r_);
+    tangent_.supports().add_product(r_, u_);
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const Real *const m = tangent_.masses().component(0), *const v = v_.component(c),
+                        *const r = r_.component(c), *const f = external.component(c);
+      Real *const b_c = b.component(c);
+      for (std::size_t i = 0; i < b.lattice().size(); ++i)
+        b_c[i] = m[i] * v[i] + Real(h) * (f[i] - r[i]);
+    }
+  }
+
+  /// Takes stiffness K + mass M as the matrix A, and its diagonal blocks at rest.
+  template <class Real>
+  void LatticeMotion<Real>::combine(const Real stiffness, const Real mass)
+  {
+    if (stiffness == stiffness_ && mass == mass_)
+      return;
+    stiffness_ = stiffness;
+    mass_      = mass;
+    tangent_.combine(stiffness, mass);
+    tangent_.elasticity().set_state(LatticeVector<Real>(u_.lattice()));
+    tangent_.inverse_diagonal(inverse_diagonal_);
+    linearise();
+  }
+
+  /// y += a x
+  template <class Real>
+  void
+  LatticeMotion<Real>::add(LatticeVector<Real> &y, const Real a, const LatticeVector<Real> &x) const
+  {
+    unknowns_.for_each(y, x, [a](Real &y_i, const Real x_i) { y_i += a * x_i; });
+  }
+
+  /// Makes the last velocities, w before all, A-orthonormal.
+  template <class Real>
+  void LatticeMotion<Real>::prepare_starts(const LatticeVector<Real> &w)
+  {
+    std::rotate(velocities_.begin(), velocities_.end() - 1, velocities_.end());
+    velocities_[0] = w;
+    unknowns_.hold(velocities_[0]);
+    n_starts_ = 0;
+    for (const LatticeVector<Real> &velocity : velocities_)
+    {
+      LatticeVector<Real> &d = starts_[n_starts_], &Ad = A_starts_[n_starts_];
+      d = velocity;
+      tangent_.product(Ad, d); // also in held entries
+      const double all = unknowns_.dot(d, Ad);
+      for (unsigned int k = 0; k < n_starts_; ++k)
+      {
+        const Real share = unknowns_.dot(A_starts_[k], d);
+        add(d, -share, starts_[k]);
+        add(Ad, -share, A_starts_[k]);
+      }
+      const double left = unknowns_.dot(d, Ad);
+      if (!(left > 1e-6 * all)) // of round-off alone
+        continue;
+      const Real scale = 1 / std::sqrt(left);
+      for (LatticeVector<Real> *const x : {&d, &Ad})
+        unknowns_.for_each(*x, *x, [scale](Real &x_i, const Real) { x_i *= scale; });
+      ++n_starts_;
+    }
+  }
+
+  /// Solves A w = r from w on and leaves in r what is missing, also in held entries.
+  template <class Real>
+  void LatticeMotion<Real>::solve(const Effort &effort, LatticeVector<Real> &w)
+  {
+    prepare_starts(w);
+    add(w, -1, velocities_[0]); // now what is imposed
+    if (std::any_of(held_.begin(), held_.end(),
+                    [&](const std::size_t entry) { return w.entries()[entry] != 0; }))
+    {
+      tangent_.product(Ap_, w);
+      add(r_, -1, Ap_);
+    }
+    unknowns_.combine(Real(0), z_, Real(1), inverse_diagonal_, r_);
+    const double scale = unknowns_.dot(z_, r_);
+    for (unsigned int k = 0; k < n_starts_; ++k)
+    {
+      const Real share = unknowns_.dot(starts_[k], r_);
+      add(w, share, starts_[k]);
+      add(r_, -share, A_starts_[k]);
+    }
+    step_ = iterate(effort, scale, w);
+  }
+
+  template <class Real>
+  typename LatticeMotion<Real>::Step
+  LatticeMotion<Real>::iterate(const Effort &effort, const double scale, LatticeVector<Real> &w)
+  {
+    // beyond what the precision gives, conjugate gradients go astray
+    const double tolerance =
+      std::max<double>(effort.tolerance, 10 * std::numeric_limits<Real>::epsilon());
+    Step step;
+    double rz_before = 1;
+    auto begin       = Clock::now();
+    while (true)
+    {
+      unknowns_.combine(Real(0), z_, Real(1), inverse_diagonal_, r_);
+      const double rz = unknowns_.dot(r_, z_);
+      step.residual   = scale > 0 ? std::sqrt(rz / scale) : 0;
+      const auto now  = Clock::now();
+      if (step.residual <= tolerance || step.iterations == effort.max_iterations ||
+          (step.iterations > 0 && effort.deadline - now < now - begin))
+        return step;
+      begin            = now;
+      const Real share = step.iterations > 0 ? rz / rz_before : 0.;
+      unknowns_.for_each(p_, z_, [share](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
+      for (unsigned int k = 0; k < n_starts_; ++k)
+        add(p_, -Real(unknowns_.dot(A_starts_[k], z_)), starts_[k]);
+      tangent_.product(Ap_, p_);
+      const double curvature = unknowns_.dot(p_, Ap_);
+      if (!(curvature > 0)) // the tangent is indefinite
+        return step;
+      const Real length = rz / curvature;
+      add(w, length, p_);
+      add(r_, -length, Ap_);
+      rz_before = rz;
+      ++step.iterations;
+    }
+  }
+
+  template class LatticeMotion<double>;
+  template class LatticeMotion<float>;
+} // namespace softcell
