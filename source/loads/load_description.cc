@@ -74,7 +74,7 @@ namespace softcell
       const KindName &found = kinds[kind];
       LoadDescription load{region, found.kind, is_clamp ? "0, 0, 0" : value, place};
       if ((load.is_exact() && found.n_components == 3) ||
-          (load.is_of_reference() && word == "displacement"))
+          ((load.is_of_reference() || load.is_path()) && word == "displacement"))
         return load;
       const Expression expression(load.value, found.n_components, place);
       unsigned int n_free = 0;

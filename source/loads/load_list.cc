@@ -9,6 +9,7 @@
 #include <softcell/loads/nitsche.h>
 #include <softcell/loads/nodal_mapping.h>
 #include <softcell/loads/pressure.h>
+#include <softcell/loads/recorded_path.h>
 #include <softcell/loads/rigid_modes.h>
 #include <softcell/loads/supports.h>
 
@@ -66,6 +67,10 @@ namespace softcell
     prm.add_parameter("Manufactured amplitude", amplitude,
                       "Units: m. A of the manufactured solution. Saint-Venant-Kirchhoff loses its "
                       "ellipticity, and fine grids diverge, from 0.09 on with sine and nu = 0.3.");
+    prm.add_parameter("Path", path,
+                      "File of lines `t, x, y, z`: time (s; the load factor of a static run) and "
+                      "displacement (m) of regions with the load `displacement path`, as a tool's "
+                      "way was recorded.");
   }
 
   namespace
@@ -127,6 +132,8 @@ namespace softcell
         if (load.is_of_reference() && !reference_)
           throw BadInput(load.place + " has no run to be taken from; describe one in "
                                       "Study/Reference, with another load on this region.");
+        if (load.is_path() && parameters_.path.empty())
+          throw BadInput(load.place + " has no recorded path; give its file as Loads/Path.");
         if (load.kind == Kind::displacement)
         {
           add_displacement(load, region);
@@ -239,6 +246,10 @@ namespace softcell
       {
         if (load.is_of_reference())
           return reference_displacement(load, points);
+        if (load.is_path())
+          return Expression([path = RecordedPath(parameters_.path)](
+                              const Point &, const double t) { return path.displacement(t); },
+                            load.place);
         if (!load.is_exact())
           return Expression(load.value, 3, load.place);
         return Expression([exact = loads_.exact.get()](

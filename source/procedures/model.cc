@@ -25,7 +25,8 @@ namespace softcell
     {
       if (!parameters.is_matrix_free())
         return make_linear_solver(parameters, is_symmetric(loads));
-      const std::string place = "Solver/Preconditioner = geometric multigrid ";
+      const std::string place =
+        "What runs without a matrix (Mode = dynamic, Preconditioner = geometric multigrid) ";
       if (has_projection)
         throw BadInput(place + "knows no volumetric projection; give 'Discretization/Volumetric "
                                "projection = false' or another preconditioner.");

@@ -24,6 +24,7 @@ namespace softcell
 #   set NAME = springs 1e6                  (Pa/m; towards the place at rest)
 #   set NAME = displacement exact           (or traction exact, of the manufactured solution)
 #   set NAME = displacement reference       (that of Study/Reference, for a study's cases)
+#   set NAME = displacement path            (that of Path, a recorded one)
 #              Values are expressions of x, y, z and of the load factor t, which goes from 0 to 1;
 #              of those without t, t times the value acts, but springs are there from the start.
 # end
@@ -60,13 +61,16 @@ namespace softcell
     prm.add_parameter("Poisson ratio", poisson_ratio,
                       "Units: 1. Below 0.5; near it trilinear cells come out too stiff without "
                       "'Discretization/Volumetric projection', and linear tetrahedra in any case.");
-    prm.add_parameter("Density", density, "Units: kg/m^3. Needed for the weight only.");
+    prm.add_parameter("Density", density, "Units: kg/m^3. Needed for weight and inertia.");
   }
 
   void ProcedureParameters::add_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Mode", mode, "Equilibrium under loads that grow slowly.",
-                      dealii::Patterns::Selection("static"));
+    prm.add_parameter("Mode", mode,
+                      "static: equilibrium under loads that grow slowly; dynamic: motion in time, "
+                      "see section Dynamics, where t is the time and loads that do not speak of it "
+                      "act in full from the start.",
+                      dealii::Patterns::Selection("static|dynamic"));
     prm.add_parameter(
       "Start from", start_from,
       "checkpoint.h5 of an earlier run on the same grid or mesh: the run starts from its "
@@ -77,6 +81,29 @@ namespace softcell
       "next: the run starts from the last one's displacement under the whole load, and from rest "
       "if that fails.",
       dealii::Patterns::Integer(0, 10));
+  }
+
+  void DynamicsParameters::add_parameters(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Double;
+    prm.add_parameter("Steps per second", steps_per_second,
+                      "Units: 1/s. 60 is what a display shows.", Double(1e-6));
+    prm.add_parameter("End time", end_time, "Units: s. 0: the last time of Loads/Path.",
+                      Double(0.));
+    prm.add_parameter("Scheme", scheme,
+                      "implicit Euler (Baraff and Witkin): of first order, damps what is fast and "
+                      "is the one to interact with; Newmark (average acceleration): of second "
+                      "order, damps nothing. Both solve one linear system a step.",
+                      dealii::Patterns::Selection("implicit Euler|Newmark"));
+    prm.add_parameter("Mass damping", mass_damping,
+                      "Units: 1/s. a of Rayleigh's damping a M + b K.", Double(0.));
+    prm.add_parameter("Stiffness damping", stiffness_damping,
+                      "Units: s. b of Rayleigh's damping a M + b K.", Double(0.));
+    prm.add_parameter(
+      "Frame budget", frame_budget,
+      "Units: ms. After so long a step leaves its linear system as it is, in single "
+      "precision. 0: solve to 'Solver/Linear tolerance', in double precision.",
+      Double(0.));
   }
 
   void OutputParameters::add_parameters(dealii::ParameterHandler &prm)
@@ -90,7 +117,8 @@ namespace softcell
                       "Write checkpoint.h5: node positions, displacement and load factor, from "
                       "which 'Solver/Start from' goes on.");
     prm.add_parameter("Every", every,
-                      "Load steps from one state to the next that solution.pvd gets; checkpoint.h5 "
+                      "Load steps, or steps in time, from one state to the next that solution.pvd "
+                      "gets; checkpoint.h5 "
                       "has the latest of them. 0: the last state alone.",
                       dealii::Patterns::Integer(0));
   }
@@ -136,6 +164,7 @@ namespace softcell
       load_steps.add_parameters(prm);
       linear_solver.add_parameters(prm);
     });
+    in_section(prm, "Dynamics", [&] { dynamics.add_parameters(prm); });
     in_section(prm, "Probes", [] {});
     in_section(prm, "Output", [&] { output.add_parameters(prm); });
     in_section(prm, "Study", [&] { study.add_parameters(prm); });

@@ -132,6 +132,14 @@ namespace softcell
       reference_.emplace(*reference);
     parameters.load_steps.n_steps(); // throws if it is no number
     check_coarse_grids(parameters);
+    if (is_dynamic())
+    {
+      check_motion();
+      parameters_.linear_solver.solver         = "CG"; // there is no matrix
+      parameters_.linear_solver.preconditioner = "geometric multigrid";
+      for (Material &material : materials_)
+        material = material.invertible();
+    }
     check_memory(parameters, body, MPI_COMM_WORLD);
     if (!parameters.procedure.start_from.empty())
       take_refinement(parameters.procedure.start_from);
@@ -179,7 +187,7 @@ namespace softcell
     loads_ = std::make_unique<Loads>(make_loads(parameters_.loads, loads, regions_,
                                                 *discretization_, body_.surface(), materials_,
                                                 reference_ ? &*reference_ : nullptr));
-    if (!loads_->free_motions.empty())
+    if (!loads_->free_motions.empty() && !is_dynamic())
       throw BadInput("Loads: " + loads_->free_motions);
     warn(loads_->warnings);
     displacement_ = discretization_->make_vector();
@@ -253,6 +261,14 @@ namespace softcell
   bool Simulation::solve(const std::filesystem::path &folder)
   {
     const Timers::Scope scope(timers_, "solve");
+    if (is_dynamic())
+    {
+      if (parameters_.dynamics.frame_budget > 0)
+        move<float>(folder);
+      else
+        move<double>(folder);
+      return true;
+    }
     const auto follow_from_rest = [&] {
       console_.say("  from the coarser grid: " + history_.reason + "; starting from rest");
       const LoadHistory failed = history_;

@@ -84,6 +84,8 @@ namespace softcell
       for (unsigned int c = 0; c < 3; ++c)
         row.set(parameters_.probes[i].first + "_u" + axes[c], at_probes.displacements[i][c]);
 
+    if (is_dynamic()) // frames.csv has the forces
+      return row;
     std::map<std::string, Direction> forces; // a region may have several loads
     for (const auto &[region, force] : model_->region_forces(displacement_))
       forces[region] += force;

@@ -27,6 +27,8 @@ def write_files(folder):
     def write(name, vertices, triangles):
         (folder / name).write_text(off(vertices, triangles))
 
+    (folder / "back.csv").write_text("t,x,y,z\n1,0,0,0\n0.5,0,0,0\n")
+    (folder / "names.csv").write_text("t,x,y,z\n")
     write("good.off", VERTICES, TRIANGLES)
     write("open.off", VERTICES, TRIANGLES[:3])
     write("inside_out.off", VERTICES, [t[::-1] for t in TRIANGLES])
@@ -71,6 +73,9 @@ def image(file, *more):
 
 
 MULTIGRID = ["Solver/Preconditioner = geometric multigrid", "Discretization/Method = weighted cell"]
+
+DYNAMIC = ["Solver/Mode = dynamic", "Discretization/Method = weighted cell", "Dynamics/End time = 0.1"]
+TOOL = [*DYNAMIC, "Loads/top = displacement path"]
 
 # Name of the mistake; settings on the command line; text of the parameter file (None: the bar, @BAR@ stands for it);
 # parts of the message.
@@ -167,7 +172,7 @@ BAD_INPUTS = [
     ("image of great size", image("great.nrrd"), None, ["great.nrrd", " 200000 voxels"]),
     ("image without its voxels", image("apart.mhd"), None, ["gone.raw", "apart.mhd"]),
     ("no load steps", ["Solver/Load steps = 0"], None, ["Load steps", "0", "adaptive"]),
-    ("dynamics", ["Solver/Mode = dynamic"], None, ["Solver/Mode", "dynamic", "static"]),
+    ("unknown mode", ["Solver/Mode = quasistatic"], None, ["Solver/Mode", "dynamic", "static"]),
     ("contradictory supports", ["Discretization/Method = hexahedra", "Loads/top = displacement 0, 0, 0.1",
                                 "Regions/top = z < 1e-6 && x > 0"], None, ["base", "top"]),
     ("supports by penalty that contradict", ["Regions/top = z < 0.1", "Loads/top = displacement 0, 0, 0.1"], None,
@@ -228,6 +233,24 @@ BAD_INPUTS = [
      ["Refinement steps = 1", "tetrahedra", "background grids"]),
     ("refinement of a higher degree", ["Discretization/Degree = 2", "Discretization/Refinement steps = 1"], None,
      ["Refinement steps = 1", "degree 2"]),
+    ("motion without an end", [*DYNAMIC, "Dynamics/End time = 0"], None, ["dynamic", "Dynamics/End time"]),
+    ("motion of Saint-Venant-Kirchhoff", [*DYNAMIC, "Material/Model = Saint-Venant-Kirchhoff"], None,
+     ["dynamic", "Material/Model"]),
+    ("motion without a mass", [*DYNAMIC, "Material/Density = 0"], None, ["dynamic", "Material/Density"]),
+    ("motion held by Nitsche", [*DYNAMIC, "Loads/Imposed displacement = Nitsche"], None, ["dynamic", "penalty"]),
+    ("motion to a known solution", [*DYNAMIC, "Loads/Manufactured solution = sine"], None,
+     ["dynamic", "Manufactured solution"]),
+    ("motion on several grids", [*DYNAMIC, "Solver/Coarse grids = 1"], None, ["dynamic", "Coarse grids"]),
+    ("motion under a pressure", [*DYNAMIC, "Loads/top = pressure 100"], None, ["dynamic", "pressure 100"]),
+    ("penalty that changes in a motion", [*DYNAMIC, "Loads/Penalty = 100 * t"], None, ["dynamic", "100 * t"]),
+    ("springs that change in a motion", [*DYNAMIC, "Loads/top = springs 100 * t"], None, ["dynamic", "100 * t"]),
+    ("motion that jumps", [*DYNAMIC, "Loads/top = displacement 0, 0, 0.01"], None, ["dynamic", "0, 0, 0.01", "path"]),
+    ("motion of a higher degree", [*DYNAMIC, "Discretization/Degree = 2"], None, ["dynamic", "Degree = 1"]),
+    ("no recorded path", TOOL, None, ["displacement path", "Loads/Path"]),
+    ("missing path", [*TOOL, "Loads/Path = nowhere.csv"], None, ["nowhere.csv"]),
+    ("junk for a path", [*TOOL, "Loads/Path = good.off"], None, ["good.off", "Line 2"]),
+    ("path that goes back in time", [*TOOL, "Loads/Path = back.csv"], None, ["back.csv", "Line 3", "later"]),
+    ("path without a record", [*TOOL, "Loads/Path = names.csv"], None, ["names.csv"]),
     ("multigrid of finite cells of degree 2", [*MULTIGRID, "Discretization/Degree = 2"], None,
      ["geometric multigrid", "Degree = 1"]),
     ("multigrid of tetrahedra", [*MULTIGRID, "Discretization/Method = tetrahedra"], None,

@@ -13,6 +13,11 @@ namespace softcell
   {
   public:
     void add_residual(const Vector &u, double t, Vector &r) const override;
+    bool is_proportional() const override
+    {
+      return is_proportional_;
+    }
+
     /// -int f . u
     double energy(const Vector &u, double t) const override;
     Direction total_force(const Vector &u, double t) const override;

@@ -20,6 +20,12 @@ namespace softcell
   public:
     virtual ~Load() = default;
 
+    /// Does it grow in proportion to t, as a load does that does not speak of t?
+    virtual bool is_proportional() const
+    {
+      return false;
+    }
+
     /// Subtracts the external force at (u, t) from r. Ghosted u; the caller compresses r.
     /// Collective.
     /// @throws InvertedPoint on all ranks, from a support that needs the stress.

@@ -23,7 +23,7 @@ namespace softcell
 
     std::string region;
     Kind kind;
-    std::string value; // its expressions, `exact` or `reference`
+    std::string value; // its expressions, `exact`, `reference` or `path`
     std::string place; // `Loads/NAME = 'kind value'`, for messages
 
     /// Is it that of the manufactured solution?
@@ -36,6 +36,11 @@ namespace softcell
     {
       return value == "reference";
     }
+    /// Is it the displacement that was recorded?
+    bool is_path() const
+    {
+      return value == "path";
+    }
   };
 
   /// Reads entries (name of a region, text):
@@ -43,7 +48,7 @@ namespace softcell
   /// with values in m, Pa and Pa/m that are expressions of x, y, z and t. Values that do not
   /// contain t are multiplied by the load factor t, but for k. `displacement exact` and `traction
   /// exact` are those of the manufactured solution, `displacement reference` that of a study's
-  /// reference run, times t.
+  /// reference run, times t, `displacement path` what Loads/Path has recorded.
   /// @throws BadInput
   std::vector<LoadDescription>
   parse_loads(const std::vector<std::pair<std::string, std::string>> &entries,

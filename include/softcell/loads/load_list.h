@@ -28,6 +28,7 @@ namespace softcell
     std::string surface_integration = "exact"; // exact, nodal
     std::string manufactured        = "none";  // or one of manufactured_solution_names()
     double amplitude                = 0.05;    // of the manufactured solution. m
+    std::string path                = "";      // file, see RecordedPath
 
     /// Declares the entries of the section, which the caller has entered.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -13,6 +13,10 @@ namespace softcell
   class Support : public Load
   {
   public:
+    bool is_proportional() const override
+    {
+      return !displacement_.uses_time();
+    }
     void add_couplings(std::vector<std::vector<unsigned int>> &couplings) const override;
     const std::string &region() const override
     {

@@ -7,6 +7,7 @@
 #include <softcell/geometry/geometry.h>
 #include <softcell/loads/load_list.h>
 #include <softcell/mechanics/material.h>
+#include <softcell/solvers/lattice_motion.h>
 #include <softcell/solvers/linear_solver.h>
 #include <softcell/solvers/load_steps.h>
 #include <softcell/solvers/newton.h>
@@ -31,11 +32,30 @@ namespace softcell
   /// What the section Solver says beside Newton's method, load steps and linear solver.
   struct ProcedureParameters
   {
-    std::string mode          = "static";
-    std::string start_from    = ""; // a checkpoint; empty: the body at rest
-    unsigned int coarse_grids = 0;  // that are solved first, each as a start for the next
+    std::string mode          = "static"; // or dynamic
+    std::string start_from    = "";       // a checkpoint; empty: the body at rest
+    unsigned int coarse_grids = 0;        // that are solved first, each as a start for the next
 
     void add_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Section Dynamics, for a body in motion.
+  struct DynamicsParameters
+  {
+    double steps_per_second  = 60;
+    double end_time          = 0; // s; 0: that of the recorded path
+    std::string scheme       = "implicit Euler";
+    double mass_damping      = 0; // 1/s
+    double stiffness_damping = 0; // s
+    double frame_budget      = 0; // ms; 0: as long as it takes
+
+    void add_parameters(dealii::ParameterHandler &prm);
+
+    MotionParameters motion() const
+    {
+      return {scheme == "Newmark" ? TimeScheme::newmark : TimeScheme::implicit_euler, mass_damping,
+              stiffness_damping};
+    }
   };
 
   /// Section Output.
@@ -45,7 +65,7 @@ namespace softcell
     bool volume           = true;  // solution.pvd
     bool surface          = true;  // surface.vtp
     bool checkpoint       = false; // HDF5
-    unsigned int every    = 0;     // load steps between two states; 0: the last state alone
+    unsigned int every    = 0;     // load steps or frames between states; 0: the last state alone
 
     void add_parameters(dealii::ParameterHandler &prm);
   };
@@ -76,6 +96,7 @@ namespace softcell
     NewtonParameters newton;
     LoadStepParameters load_steps;
     LinearSolverParameters linear_solver;
+    DynamicsParameters dynamics;
     std::vector<ParameterFile::Entry> probes;
     OutputParameters output;
     StudyParameters study;

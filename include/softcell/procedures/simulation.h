@@ -38,6 +38,7 @@ namespace softcell
     /// if the end was not reached: then the displacement is that of the last load step that
     /// converged, and reason() says what stopped it.
     /// @param folder for the states that `Every` asks for.
+    /// In a dynamic run, moves the body until the end time and writes frames.csv.
     bool solve(const std::filesystem::path &folder);
 
     /// One clause, with advice.
@@ -103,6 +104,11 @@ namespace softcell
     void write(const std::filesystem::path &folder);
 
   private:
+    bool is_dynamic() const
+    {
+      return parameters_.procedure.mode == "dynamic";
+    }
+
     /// Makes the discretization and all that stands on it, with no displacement.
     /// @throws BadInput
     void build();
@@ -132,6 +138,13 @@ namespace softcell
 
     /// Goes on from displacement_ at load factor start_.
     void follow(const std::filesystem::path &folder);
+
+    /// @throws BadInput where the parameters ask for what there is not in a motion.
+    void check_motion() const;
+
+    /// Moves the body from displacement_ at rest to the end time. Real is the precision.
+    template <class Real>
+    void move(const std::filesystem::path &folder);
 
     /// Adds the state at a load factor to solution.pvd and makes it the checkpoint, once.
     void write_state(const std::filesystem::path &folder, double load_factor);
