@@ -99,6 +99,8 @@ namespace softcell
         patches_(std::move(patches)),
         traction_(std::move(traction))
   {
+    for (SurfacePatch &patch : patches_)
+      patch.shapes.drop_gradients();
   }
 
   void Traction::integrate(const double t, Vector &f) const

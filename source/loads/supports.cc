@@ -45,6 +45,8 @@ namespace softcell
       : Support(discretization, std::move(patches), std::move(displacement), std::move(region)),
         stiffness_(std::move(stiffness))
   {
+    for (SurfacePatch &patch : patches_)
+      patch.shapes.drop_gradients();
   }
 
   void Penalty::add_residual(const Vector &u, const double t, Vector &r) const

@@ -23,6 +23,12 @@ namespace softcell
       values.resize(points * nodes);
       gradients.resize(points * 3 * nodes);
     }
+    /// Frees three quarters of the memory, where none are needed.
+    void drop_gradients()
+    {
+      gradients = {};
+      gradients.shrink_to_fit();
+    }
     const double *value(const unsigned int point) const
     {
       return values.data() + point * n_nodes;
