@@ -132,17 +132,18 @@ namespace softcell
     for (const LatticeVector<Real> &velocity : velocities_)
     {
       LatticeVector<Real> &d = starts_[n_starts_], &Ad = A_starts_[n_starts_];
-      d = velocity;
-      tangent_.product(Ad, d); // also in held entries
-      const double all = unknowns_.dot(d, Ad);
+      d                 = velocity;
+      double taken_away = 0;
       for (unsigned int k = 0; k < n_starts_; ++k)
       {
-        const Real share = unknowns_.dot(A_starts_[k], d);
-        add(d, -share, starts_[k]);
-        add(Ad, -share, A_starts_[k]);
+        const double share = unknowns_.dot(A_starts_[k], velocity);
+        add(d, -Real(share), starts_[k]);
+        taken_away += share * share;
       }
-      const double left = unknowns_.dot(d, Ad);
-      if (!(left > 1e-6 * all)) // of round-off alone
+      tangent_.product(Ad, d); // also in held entries
+      const double left  = unknowns_.dot(d, Ad);
+      const double noise = 10 * std::sqrt(std::numeric_limits<Real>::epsilon());
+      if (!(left > noise * taken_away && left > 0))
         continue;
       const Real scale = 1 / std::sqrt(left);
       for (LatticeVector<Real> *const x : {&d, &Ad})

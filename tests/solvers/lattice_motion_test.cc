@@ -1,72 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Bodies in motion: what theory says of momentum, energy, waves, and of what is squeezed flat.
+// Bodies in motion: what theory says of mass, free fall, waves, energy and momentum.
 
-#include <softcell/discretization/methods.h>
-#include <softcell/solvers/lattice_motion.h>
+#include "moving_bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 namespace
 {
   using namespace softcell;
-
-  CellLattice cells_of(const std::string &type, const Point &size, const unsigned int n)
-  {
-    GeometryParameters geometry;
-    geometry.type   = type;
-    geometry.size   = size;
-    geometry.radius = 0.05;
-    geometry.length = 0.2;
-    std::vector<std::string> remarks;
-    const auto body = make_body(geometry, remarks);
-    DiscretizationParameters parameters;
-    parameters.method     = "weighted cell";
-    parameters.grid.cells = {n};
-    parameters.cut.levels = 2;
-    return cell_lattice(*make_discretization(parameters, geometry, *body, MPI_COMM_SELF, remarks));
-  }
-
-  Point position(const CellLattice &cells, const std::size_t node)
-  {
-    const std::size_t in_plane = node % cells.nodes.plane();
-    return Point(cells.spacing[0] * double(in_plane % cells.nodes.row()),
-                 cells.spacing[1] * double(in_plane / cells.nodes.row()),
-                 cells.spacing[2] * double(node / cells.nodes.plane()));
-  }
-
-  /// Sets a field at all nodes of cells.
-  template <class Real, class F>
-  void fill(const CellLattice &cells, LatticeVector<Real> &field, const F &value)
-  {
-    for (const std::size_t node : cells.entries)
-    {
-      const Direction at = value(position(cells, node));
-      for (unsigned int c = 0; c < dim; ++c)
-        field.component(c)[node] = at[c];
-    }
-  }
-
-  std::vector<std::size_t> entries_below(const CellLattice &cells, const double z)
-  {
-    std::vector<std::size_t> entries;
-    for (const std::size_t node : cells.entries)
-      for (unsigned int c = 0; c < dim && position(cells, node)[2] < z; ++c)
-        entries.push_back(c * cells.nodes.size() + node);
-    return entries;
-  }
-
-  LatticeVector<double> weight(const CellLattice &cells, const LatticeMotion<double> &motion)
-  {
-    LatticeVector<double> force(cells.nodes);
-    for (const std::size_t node : cells.entries)
-      force.component(2)[node] = -9.81 * motion.tangent().masses().component(0)[node];
-    return force;
-  }
-
-  const Material soft("Neo-Hookean", 1000, 0.3, 1000);
-  const LatticeMotion<double>::Effort exact{1e-13, 1000};
 
   TEST(LatticeMotion, MassIsDensityTimesVolumeWithItsCentre)
   {
@@ -89,11 +33,11 @@ namespace
     const CellLattice cells = cells_of("cylinder", Point(), 3);
     for (const TimeScheme scheme : {TimeScheme::newmark, TimeScheme::implicit_euler})
     {
-      LatticeMotion<double> motion(cells, soft, {}, {}, {scheme});
+      LatticeMotion<double> motion(cells, soft_tissue, {}, {}, {scheme});
       const double dt  = 0.1;
       const unsigned n = 5;
       for (unsigned int i = 0; i < n; ++i)
-        motion.advance(dt, weight(cells, motion), LatticeVector<double>(cells.nodes), exact);
+        motion.advance(dt, weight(cells, motion), LatticeVector<double>(cells.nodes), exactly);
       const double fall =
         9.81 * dt * dt / 2 * (scheme == TimeScheme::newmark ? n * n : n * (n + 1));
       for (const std::size_t node : cells.entries)
@@ -121,7 +65,7 @@ namespace
       fill(cells, motion.displacement(), mode);
       const LatticeVector<double> nothing(cells.nodes);
       for (unsigned int i = 0; i < 20; ++i)
-        motion.advance(dt, nothing, nothing, exact);
+        motion.advance(dt, nothing, nothing, exactly);
       const std::complex<double> i_a(0, omega_h * dt / 2);
       const auto factor =
         scheme == TimeScheme::newmark ? (1. + i_a) / (1. - i_a) : 1. / (1. - 2. * i_a);
@@ -188,14 +132,14 @@ namespace
   {
     const CellLattice cells = cells_of("cylinder", Point(), 3);
     const auto loss         = [&](const TimeScheme scheme, const unsigned int n) {
-      LatticeMotion<double> motion(cells, soft, {}, {}, {scheme});
+      LatticeMotion<double> motion(cells, soft_tissue, {}, {}, {scheme});
       fill(cells, motion.velocity(), [](const Point &X) {
         return Direction(Point(0.3 - 4 * X[1], 0.1 + 4 * X[0] - X[2], 2 * (X[2] - 0.1) + 0.2));
       });
       const Momentum before = momentum(cells, motion);
       const LatticeVector<double> nothing(cells.nodes);
       for (unsigned int i = 0; i < n; ++i)
-        motion.advance(0.05 / n, nothing, nothing, exact);
+        motion.advance(0.05 / n, nothing, nothing, exactly);
       const Momentum after = momentum(cells, motion);
       EXPECT_LT((after.linear - before.linear).norm(), 1e-10 * before.linear.norm());
       return (after.angular - before.angular).norm() / before.angular.norm();
@@ -205,56 +149,5 @@ namespace
     EXPECT_NEAR(euler / loss(TimeScheme::implicit_euler, 160), 2, 0.2);
     EXPECT_NEAR(newmark / loss(TimeScheme::newmark, 160), 4, 0.4);
     EXPECT_LT(newmark, euler);
-  }
-
-  // Squeezed flat, and turned inside out through its clamped base.
-  TEST(LatticeMotion, WhatIsSqueezedFlatOrInsideOutReturns)
-  {
-    const CellLattice cells = cells_of("box", Point(0.1, 0.1, 0.1), 4);
-    for (const double length : {0., -0.7})
-    {
-      MotionParameters parameters;
-      parameters.mass_damping = 2;
-      LatticeMotion<float> motion(cells, Material("Neo-Hookean", 1000, 0.45, 1000),
-                                  entries_below(cells, 0.01), {}, parameters);
-      fill(cells, motion.displacement(),
-           [length](const Point &X) { return Direction(Point(0, 0, (length - 1) * X[2])); });
-      const LatticeVector<float> nothing(cells.nodes);
-      double highest     = motion.strain_energy();
-      const double start = highest;
-      for (unsigned int i = 0; i < 600; ++i)
-      {
-        motion.advance(1. / 60, nothing, nothing, {1e-3, 10});
-        highest = std::max(highest, motion.strain_energy() + motion.kinetic_energy());
-      }
-      EXPECT_LE(highest, 1.01 * start) << length;
-      double farthest = 0;
-      for (const float u : motion.displacement().entries())
-        farthest = std::max<double>(farthest, std::abs(u));
-      EXPECT_LT(farthest, 1e-4) << length;
-      EXPECT_GT(motion.tangent().elasticity().min_jacobian(motion.displacement()), 0.9) << length;
-    }
-  }
-
-  // Held still for long under its weight, a column is in equilibrium: the base carries all of it.
-  TEST(LatticeMotion, HeldStillTheReactionIsTheStaticOne)
-  {
-    const CellLattice cells = cells_of("cylinder", Point(), 4);
-    const auto base         = entries_below(cells, 0.01);
-    MotionParameters parameters;
-    parameters.mass_damping = 20;
-    LatticeMotion<double> motion(cells, Material("Neo-Hookean", 20000, 0.3, 1000), base, {},
-                                 parameters);
-    const LatticeVector<double> force = weight(cells, motion), nothing(cells.nodes);
-    double total                      = 0;
-    for (const double f : force.entries())
-      total += f;
-    for (unsigned int i = 0; i < 200; ++i)
-      motion.advance(0.05, force, nothing, {1e-8, 1000});
-    Direction sum;
-    for (const std::size_t entry : base)
-      sum[entry / cells.nodes.size()] += motion.reaction().entries()[entry];
-    EXPECT_NEAR(sum[2], -total, 1e-6 * std::abs(total));
-    EXPECT_LT(std::abs(sum[0]) + std::abs(sum[1]), 1e-6 * std::abs(total));
   }
 } // namespace
