@@ -83,6 +83,8 @@ namespace
         expect_kernels_agree<double>(*p.discretization, material, 1e-12);
         expect_kernels_agree<float>(*p.discretization, material, 1e-5);
       }
+      const Material invertible = Material("Neo-Hookean", 5000, 0.3).invertible();
+      expect_kernels_agree<double>(*p.discretization, invertible, 1e-12);
     }
   }
 

@@ -10,8 +10,9 @@
 
 namespace softcell
 {
-  /// What is shared is NaN (or the largest number) at first, and every second phase begins with the
-  /// last thread, so that a kernel that relies on an order gives something wrong.
+  /// What is shared is NaN (or the largest number) at first, and from block to block and from phase
+  /// to phase the first or the last thread begins, so that a kernel that relies on an order gives
+  /// something wrong.
   template <class Kernel>
   void Serial::launch(const Kernel &kernel, const std::size_t n_blocks)
   {
@@ -22,7 +23,8 @@ namespace softcell
       scratch.assign(scratch.size(), Limits::has_quiet_NaN ? Limits::quiet_NaN() : Limits::max());
       for (int phase = 0; phase < Kernel::n_phases; ++phase)
         for (unsigned int i = 0; i < Kernel::n_threads; ++i)
-          kernel(phase, block, phase % 2 == 0 ? i : Kernel::n_threads - 1 - i, scratch.data());
+          kernel(phase, block, (phase + block) % 2 == 0 ? i : Kernel::n_threads - 1 - i,
+                 scratch.data());
     }
   }
 
