@@ -169,30 +169,6 @@ namespace softcell
   }
 
   template <class Real>
-  void LatticeUnknowns::combine(const Real a,
-                                LatticeVector<Real> &y,
-                                const Real b,
-                                const LatticeBlocks<Real> &blocks,
-                                const LatticeVector<Real> &x) const
-  {
-    for_each_run([&](const std::size_t begin, const std::size_t end) {
-      const Real *D[6], *const x_0 = x.component(0), *const x_1 = x.component(1),
-                               *const x_2 = x.component(2);
-      Real *const y_0 = y.component(0), *const y_1 = y.component(1), *const y_2 = y.component(2);
-      for (unsigned int k = 0; k < 6; ++k)
-        D[k] = blocks.component(k);
-#pragma omp simd
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Real bx_0 = b * x_0[i], bx_1 = b * x_1[i], bx_2 = b * x_2[i];
-        y_0[i] = a * y_0[i] + D[0][i] * bx_0 + D[5][i] * bx_1 + D[4][i] * bx_2;
-        y_1[i] = a * y_1[i] + D[5][i] * bx_0 + D[1][i] * bx_1 + D[3][i] * bx_2;
-        y_2[i] = a * y_2[i] + D[4][i] * bx_0 + D[3][i] * bx_1 + D[2][i] * bx_2;
-      }
-    });
-  }
-
-  template <class Real>
   void LatticeUnknowns::interpolate(const LatticeVector<Real> &coarse,
                                     LatticeVector<Real> &fine) const
   {
@@ -362,16 +338,6 @@ namespace softcell
                                        const LatticeVector<double> &) const;
   template double LatticeUnknowns::dot(const LatticeVector<float> &,
                                        const LatticeVector<float> &) const;
-  template void LatticeUnknowns::combine(double,
-                                         LatticeVector<double> &,
-                                         double,
-                                         const LatticeBlocks<double> &,
-                                         const LatticeVector<double> &) const;
-  template void LatticeUnknowns::combine(float,
-                                         LatticeVector<float> &,
-                                         float,
-                                         const LatticeBlocks<float> &,
-                                         const LatticeVector<float> &) const;
   template void LatticeUnknowns::interpolate(const LatticeVector<double> &,
                                              LatticeVector<double> &) const;
   template void LatticeUnknowns::interpolate(const LatticeVector<float> &,

@@ -171,8 +171,9 @@ namespace softcell
                                LatticeMatrix<Real>(supports, cells.entries, cells.nodes),
                                dynamics.motion());
     copy(displacement_, cells.entries, motion.displacement());
-    const double dt     = 1 / dynamics.steps_per_second;
-    const double middle = dynamics.motion().scheme == TimeScheme::newmark ? 0.5 : 1;
+    const LatticeMotion<Real> &now = motion;
+    const double dt                = 1 / dynamics.steps_per_second;
+    const double middle            = dynamics.motion().scheme == TimeScheme::newmark ? 0.5 : 1;
     const unsigned int n_frames =
       std::lround(std::ceil(end_time(parameters_) * dynamics.steps_per_second - 1e-6));
     const unsigned int every = parameters_.output.every;
@@ -190,7 +191,7 @@ namespace softcell
           begin + std::chrono::microseconds(std::lround(1e3 * dynamics.frame_budget));
       const auto step =
         motion.advance(dt, outside.force(t - (1 - middle) * dt), outside.imposed(t), effort);
-      const auto forces = outside.tool_forces(t, motion.displacement(), motion.reaction());
+      const auto forces = outside.tool_forces(t, now.displacement(), now.reaction());
       const double ms   = milliseconds(begin, Clock::now());
       if (frame == 1)
       {
@@ -207,7 +208,7 @@ namespace softcell
       history_.linear_iterations += step.iterations;
       console_.progress("  frame " + std::to_string(frame) + " of " + std::to_string(n_frames) +
                         ": " + std::to_string(step.iterations) + " linear iterations");
-      copy(motion.displacement(), cells.entries, displacement_);
+      copy(now.displacement(), cells.entries, displacement_);
       if (every > 0 && frame % every == 0)
         write_state(folder, t);
     }

@@ -20,11 +20,11 @@ namespace softcell
 
     Material definite(const Material &material)
     {
-      return material.visit([](const auto &law) {
+      return material.visit([&](const auto &law) {
         const bool is_linear = std::is_same_v<std::decay_t<decltype(law)>, LinearElastic<>>;
         const double young   = law.mu * (3 * law.lambda + 2 * law.mu) / (law.lambda + law.mu);
         return Material(is_linear ? "linear" : "Neo-Hookean", young,
-                        law.lambda / (2 * (law.lambda + law.mu)));
+                        law.lambda / (2 * (law.lambda + law.mu)), material.density());
       });
     }
   } // namespace
@@ -60,7 +60,21 @@ namespace softcell
     /// d = a d + b D^-1 r
     void precondition(const Real a, const Real b)
     {
-      unknowns.combine(a, d, b, inverse_diagonal, r);
+      unknowns.for_each_run([&](const std::size_t begin, const std::size_t end) {
+        const Real *D[6], *const r_x = r.component(0), *const r_y = r.component(1),
+                                 *const r_z = r.component(2);
+        Real *const d_x = d.component(0), *const d_y = d.component(1), *const d_z = d.component(2);
+        for (unsigned int k = 0; k < 6; ++k)
+          D[k] = inverse_diagonal.component(k);
+#pragma omp simd
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Real x_i = b * r_x[i], y_i = b * r_y[i], z_i = b * r_z[i];
+          d_x[i] = a * d_x[i] + D[0][i] * x_i + D[5][i] * y_i + D[4][i] * z_i;
+          d_y[i] = a * d_y[i] + D[5][i] * x_i + D[1][i] * y_i + D[3][i] * z_i;
+          d_z[i] = a * d_z[i] + D[4][i] * x_i + D[3][i] * y_i + D[2][i] * z_i;
+        }
+      });
     }
 
     /// x += d, r -= K d
@@ -89,6 +103,13 @@ namespace softcell
         coarse, law, LatticeUnknowns(coarse, levels_.back()->unknowns), degree));
     }
     coarsest_entries_ = levels_.back()->unknowns.free_entries();
+  }
+
+  template <class Real>
+  void GeometricMultigrid<Real>::combine(const Real stiffness, const Real mass)
+  {
+    for (auto &level : levels_)
+      level->tangent.combine(stiffness, mass);
   }
 
   template <class Real>

@@ -3,6 +3,8 @@
 
 #include <softcell/solvers/lattice_motion.h>
 
+#include <softcell/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +30,7 @@ namespace softcell
         velocities_(n_velocities, u_),
         starts_(n_velocities, u_),
         A_starts_(n_velocities, u_),
-        inverse_diagonal_(cells.nodes)
+        multigrid_(cells, material.invertible(), held, 1)
   {
     tangent_.supports() = std::move(supports);
   }
@@ -63,15 +65,69 @@ namespace softcell
     };
     motion.solve = [&](const double mass, const double stiffness, const auto &b, auto &w) {
       r_ = b;
-      combine(Real(stiffness), Real(mass));
+      combine(Real(stiffness), Real(mass), effort.deadline == Clock::time_point::max());
       solve(effort, w);
     };
     for (const std::size_t entry : held_) // as fast as they have to be
       v_.entries()[entry] = (imposed.entries()[entry] - u_.entries()[entry]) / Real(dt);
+    const LatticeVector<Real> start = u_;
+    const double before             = kinetic_energy() + strain();
     softcell::advance(motion, parameters_.scheme, 0, dt, u_, v_);
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
+    shorten(start, before + work(start, external), dt);
     return step_;
+  }
+
+  template <class Real>
+  double LatticeMotion<Real>::strain()
+  {
+    if (!has_strain_)
+      strain_ = strain_energy();
+    has_strain_ = true;
+    return strain_;
+  }
+
+  /// What supports, loads and held entries did on the way from `start`. Units: J
+  template <class Real>
+  double LatticeMotion<Real>::work(const LatticeVector<Real> &start,
+                                   const LatticeVector<Real> &external)
+  {
+    Ap_ = external;
+    p_  = LatticeVector<Real>(u_.lattice());
+    tangent_.supports().add_product(p_, u_);
+    add(Ap_, -1, p_);
+    for (const std::size_t entry : held_)
+      Ap_.entries()[entry] += reaction_.entries()[entry];
+    p_ = u_;
+    add(p_, -1, start);
+    return unknowns_.dot(Ap_, p_);
+  }
+
+  /// Halves the way from `start` until there is no more energy than was put in. The energy of a
+  /// law that stiffens may rise above that of its linearisation.
+  template <class Real>
+  void LatticeMotion<Real>::shorten(const LatticeVector<Real> &start,
+                                    const double available,
+                                    const double dt)
+  {
+    constexpr unsigned int most = 5;
+    constexpr double margin     = 0.05;
+    for (unsigned int n = 0; n < most; ++n)
+    {
+      has_strain_ = false;
+      if ((1 - margin) * (strain() + kinetic_energy()) <= available)
+        return;
+      z_ = u_;
+      add(z_, -1, start);
+      unknowns_.hold(z_);
+      add(u_, Real(-0.5), z_);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (std::size_t i = 0; i < u_.lattice().size(); ++i)
+          if (unknowns_.is_free(i, c))
+            v_.component(c)[i] = z_.component(c)[i] / Real(2 * dt);
+    }
+    has_strain_ = false;
   }
 
   template <class Real>
@@ -99,18 +155,28 @@ namespace softcell
     }
   }
 
-  /// Takes stiffness K + mass M as the matrix A, and its diagonal blocks at rest.
+  /// Takes stiffness K + mass M as the matrix A, and multigrid for it: at rest, or at the
+  /// displacement where there is time and the last step took long.
   template <class Real>
-  void LatticeMotion<Real>::combine(const Real stiffness, const Real mass)
+  void LatticeMotion<Real>::combine(const Real stiffness, const Real mass, const bool has_time)
   {
-    if (stiffness == stiffness_ && mass == mass_)
+    constexpr unsigned int many = 20; // iterations
+    const bool is_new           = stiffness != stiffness_ || mass != mass_;
+    if (!is_new && !(has_time && step_.iterations > many))
       return;
     stiffness_ = stiffness;
     mass_      = mass;
     tangent_.combine(stiffness, mass);
-    tangent_.elasticity().set_state(LatticeVector<Real>(u_.lattice()));
-    tangent_.inverse_diagonal(inverse_diagonal_);
-    linearise();
+    multigrid_.combine(stiffness, mass);
+    const LatticeVector<Real> rest(u_.lattice());
+    try
+    {
+      multigrid_.set_state(is_new ? rest : u_, tangent_.supports());
+    }
+    catch (const InvertedPoint &) // its law has no value there
+    {
+      multigrid_.set_state(rest, tangent_.supports());
+    }
   }
 
   /// y += a x
@@ -152,6 +218,16 @@ namespace softcell
     }
   }
 
+  /// z = nearly A^-1 r, and their product.
+  template <class Real>
+  double LatticeMotion<Real>::precondition()
+  {
+    Ap_ = r_;
+    unknowns_.hold(Ap_);
+    multigrid_.vmult(z_, Ap_);
+    return unknowns_.dot(z_, Ap_);
+  }
+
   /// Solves A w = r from w on and leaves in r what is missing, also in held entries.
   template <class Real>
   void LatticeMotion<Real>::solve(const Effort &effort, LatticeVector<Real> &w)
@@ -164,37 +240,38 @@ namespace softcell
       tangent_.product(Ap_, w);
       add(r_, -1, Ap_);
     }
-    unknowns_.combine(Real(0), z_, Real(1), inverse_diagonal_, r_);
-    const double scale = unknowns_.dot(z_, r_);
+    double energy = 0; // of what was found, |w|_A^2 less that of what is imposed
     for (unsigned int k = 0; k < n_starts_; ++k)
     {
       const Real share = unknowns_.dot(starts_[k], r_);
+      energy += share * share;
       add(w, share, starts_[k]);
       add(r_, -share, A_starts_[k]);
     }
-    step_ = iterate(effort, scale, w);
+    step_ = iterate(effort, energy, w);
   }
 
   template <class Real>
   typename LatticeMotion<Real>::Step
-  LatticeMotion<Real>::iterate(const Effort &effort, const double scale, LatticeVector<Real> &w)
+  LatticeMotion<Real>::iterate(const Effort &effort, double energy, LatticeVector<Real> &w)
   {
     // beyond what the precision gives, conjugate gradients go astray
     const double tolerance =
       std::max<double>(effort.tolerance, 10 * std::numeric_limits<Real>::epsilon());
     Step step;
-    double rz_before = 1;
-    auto begin       = Clock::now();
-    while (true)
+    double rz_before   = 1;
+    auto begin         = Clock::now(); // of this iteration
+    const auto is_time = [&] {
+      const auto before = begin; // of the last one
+      begin             = Clock::now();
+      return step.iterations == 0 || effort.deadline - begin > begin - before;
+    };
+    while (step.iterations < effort.max_iterations && is_time())
     {
-      unknowns_.combine(Real(0), z_, Real(1), inverse_diagonal_, r_);
-      const double rz = unknowns_.dot(r_, z_);
-      step.residual   = scale > 0 ? std::sqrt(rz / scale) : 0;
-      const auto now  = Clock::now();
-      if (step.residual <= tolerance || step.iterations == effort.max_iterations ||
-          (step.iterations > 0 && effort.deadline - now < now - begin))
+      const double rz = precondition();
+      step.residual   = rz > 0 ? std::sqrt(rz / (energy + rz)) : 0;
+      if (step.residual <= tolerance)
         return step;
-      begin            = now;
       const Real share = step.iterations > 0 ? rz / rz_before : 0.;
       unknowns_.for_each(p_, z_, [share](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
       for (unsigned int k = 0; k < n_starts_; ++k)
@@ -206,9 +283,11 @@ namespace softcell
       const Real length = rz / curvature;
       add(w, length, p_);
       add(r_, -length, Ap_);
+      energy += rz * length;
       rz_before = rz;
       ++step.iterations;
     }
+    return step;
   }
 
   template class LatticeMotion<double>;

@@ -75,14 +75,6 @@ namespace softcell
     template <class Real>
     double dot(const LatticeVector<Real> &x, const LatticeVector<Real> &y) const;
 
-    /// y = a y + b D x, with symmetric blocks D.
-    template <class Real>
-    void combine(Real a,
-                 LatticeVector<Real> &y,
-                 Real b,
-                 const LatticeBlocks<Real> &D,
-                 const LatticeVector<Real> &x) const;
-
     /// Sets to 0 what is not free but in the runs.
     template <class Real>
     void hold(LatticeVector<Real> &x) const

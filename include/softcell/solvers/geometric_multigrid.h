@@ -37,6 +37,10 @@ namespace softcell
 
     ~GeometricMultigrid();
 
+    /// Of the operator whose inverse it is near to, from the next set_state() on, see
+    /// LatticeTangent::combine().
+    void combine(Real stiffness, Real mass);
+
     /// Takes the displacement at which the tangents are formed, and the supports' tangent.
     /// @throws InvertedPoint
     void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});

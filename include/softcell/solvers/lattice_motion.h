@@ -2,7 +2,7 @@
 // A body on a uniform grid in motion, without a matrix and in limited time.
 #pragma once
 
-#include <softcell/operators/lattice_tangent.h>
+#include <softcell/solvers/geometric_multigrid.h>
 #include <softcell/solvers/time_integration.h>
 
 #include <chrono>
@@ -21,13 +21,13 @@ namespace softcell
 
   /// Displacement and velocity of a body, and their steps in time.
   ///
-  /// Steps solve by conjugate gradients with inverted diagonal blocks, which stop where they are
-  /// when time is over. They begin with the best combination of the last three velocities, which
-  /// often is within some percent of the solution, and keep conjugate to them what follows, so that
-  /// after any number of iterations w (A w - b) = 0 but for what is imposed, see advance(): few
-  /// iterations cannot raise the energy. The blocks are those at rest. Implicit Euler uses tangents
-  /// without compressive stress, which are positive semi-definite (Stresses::tensile); it is of
-  /// first order with any.
+  /// Steps solve by conjugate gradients with multigrid for the body at rest, which stop where they
+  /// are when time is over. They begin with the best combination of the last three velocities,
+  /// which often is within some percent of the solution, and keep conjugate to them what follows,
+  /// so that after any number of iterations w (A w - b) = 0 but for what is imposed, see advance():
+  /// few iterations cannot raise the energy. Where the law's own energy rises above what is put in,
+  /// the way of the step is halved. Implicit Euler uses tangents without compressive stress, which
+  /// are positive semi-definite (Stresses::tensile); it is of first order with any.
   template <class Real>
   class LatticeMotion
   {
@@ -37,7 +37,7 @@ namespace softcell
     /// When a step's linear system may be left.
     struct Effort
     {
-      double tolerance            = 1e-2; // relative residual, in the preconditioner's norm
+      double tolerance            = 1e-2; // of the residual, see Step
       unsigned int max_iterations = 1000;
       Clock::time_point deadline  = Clock::time_point::max(); // after one iteration at least
     };
@@ -45,7 +45,8 @@ namespace softcell
     struct Step
     {
       unsigned int iterations = 0;
-      double residual         = 0; // relative
+      double residual         = 1; // about what w misses in the energy norm, relative; before the
+                                   // last iteration, if the end was not the tolerance
     };
 
     /// At rest.
@@ -67,6 +68,11 @@ namespace softcell
                  const Effort &effort);
 
     LatticeVector<Real> &displacement()
+    {
+      has_strain_ = false;
+      return u_;
+    }
+    const LatticeVector<Real> &displacement() const
     {
       return u_;
     }
@@ -97,11 +103,15 @@ namespace softcell
 
     void linearise();
     void impulse(const LatticeVector<Real> &external, double h, LatticeVector<Real> &b);
-    void combine(Real stiffness, Real mass);
+    void combine(Real stiffness, Real mass, bool has_time);
+    double strain();
+    double work(const LatticeVector<Real> &start, const LatticeVector<Real> &external);
+    void shorten(const LatticeVector<Real> &start, double available, double dt);
     void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
     void prepare_starts(const LatticeVector<Real> &w);
+    double precondition();
     void solve(const Effort &effort, LatticeVector<Real> &w);
-    Step iterate(const Effort &effort, double scale, LatticeVector<Real> &w);
+    Step iterate(const Effort &effort, double energy, LatticeVector<Real> &w);
 
     MotionParameters parameters_;
     std::vector<std::size_t> held_;
@@ -112,7 +122,9 @@ namespace softcell
     std::vector<LatticeVector<Real>> velocities_, starts_, A_starts_;
     unsigned int n_starts_ = 0; // that there are
     Real stiffness_ = 0, mass_ = 0;
-    LatticeBlocks<Real> inverse_diagonal_;
+    GeometricMultigrid<Real> multigrid_;
     Step step_;
+    bool has_strain_ = false;
+    double strain_   = 0; // energy, if it is known
   };
 } // namespace softcell
