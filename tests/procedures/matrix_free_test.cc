@@ -41,6 +41,9 @@ namespace
   // The supports' tangents are the matrix, on every grid.
   TEST(MatrixFree, HoldsASphereByItsSurfaceAsTheMatrixDoes)
   {
+#ifndef NDEBUG
+    GTEST_SKIP() << "takes minutes without optimisation";
+#endif
     using Names = std::vector<std::pair<std::string, std::string>>;
     for (const auto &[imposition, method] :
          Names{{"penalty", "weighted cell"}, {"Nitsche", "moment fitting"}})
@@ -58,6 +61,9 @@ namespace
   // tangent of the straight column is indefinite then. Bent aside it has less energy than straight.
   TEST(MatrixFree, FollowsAColumnBeyondBuckling)
   {
+#ifndef NDEBUG
+    GTEST_SKIP() << "takes minutes without optimisation";
+#endif
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       GTEST_SKIP() << "one rank alone";
     Parameters p           = body_of("cylinder", {"weighted cell", 1}, 4);
