@@ -3,7 +3,7 @@
 // offers is told in laws.h.
 #pragma once
 
-#include <softcell/mechanics/kinematics.h>
+#include <softcell/mechanics/neo_hookean.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,10 @@ namespace softcell
   /// So W has two continuous derivatives, and with J falling below J_0 it rises ever faster: what
   /// is turned inside out returns, but for a point where all of F is 0.
   template <class Real = double>
-  struct InvertibleNeoHookean
+  struct InvertibleNeoHookean : NeoHookeanStress<InvertibleNeoHookean, Real>
   {
-    Real lambda, mu;
+    using Base = NeoHookeanStress<softcell::InvertibleNeoHookean, Real>;
+    using Base::linearisation, Base::lambda, Base::mu;
 
     /// J_0: a body is rarely squeezed so far without being pierced.
     template <class Number>
@@ -71,52 +72,6 @@ namespace softcell
       Number slope, curvature;
       derivatives(determinant(F), slope, curvature);
       return slope * cofactor(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F, const Number &strain) const
-    {
-      return mu * (trace(green_lagrange_strain(F)) - strain) + lambda / 2 * strain * strain;
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
-    {
-      return energy(F, volumetric_strain(F));
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
-                                                            const Number &pressure) const
-    {
-      const Number factor = pressure - mu;
-      return mu * F + factor * volumetric_gradient(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
-    {
-      const Number pressure = lambda * volumetric_strain(F);
-      return first_piola_stress(F, pressure);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
-    {
-      return inverse(F) * first_piola_stress(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F), F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
-                                                       const Number &pressure) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F, pressure), F);
     }
 
     /// With G = cof F = dJ/dF,
@@ -172,15 +127,6 @@ namespace softcell
     {
       Linearisation<Number> tangent{mu, Real(0), mu - pressure, F, cofactor(F), {}, {}};
       derivatives(dot(F, 0, tangent.G.entries), tangent.slope, tangent.curvature);
-      return tangent;
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
-    {
-      const Number pressure         = lambda * volumetric_strain(F);
-      Linearisation<Number> tangent = linearisation(F, pressure);
-      tangent.lambda                = lambda;
       return tangent;
     }
   };

@@ -4,7 +4,6 @@
 // A law is a plain struct of its Lame parameters (Units: Pa) with
 //   energy(F)               strain energy density W. Units: J/m^3
 //   first_piola_stress(F)   P = dW/dF. Units: Pa
-//   second_piola_stress(F)  S = F^-1 P. Units: Pa
 //   cauchy_stress(F)        sigma = P F^T / J. Units: Pa
 //   linearisation(F)        the tangent at F: an object that turns dF into dP = (dP/dF) : dF,
 //                           for any dF or for a NodalGradient. dF may be a pack where F is a

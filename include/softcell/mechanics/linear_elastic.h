@@ -2,16 +2,18 @@
 // Hooke's law for small strains; what a law offers is told in laws.h.
 #pragma once
 
-#include <softcell/mechanics/kinematics.h>
+#include <softcell/mechanics/hyperelastic.h>
 
 namespace softcell
 {
   /// Hooke's law in the small strain e = (F + F^T)/2 - I, without rotations: W = lambda/2 (tr e)^2
   /// + mu e : e. All stresses are the same. It never refuses an F except NaN.
   template <class Real = double>
-  struct LinearElastic
+  struct LinearElastic : Hyperelastic<LinearElastic, Real>
   {
-    Real lambda, mu;
+    using Base = Hyperelastic<softcell::LinearElastic, Real>;
+    using Base::cauchy_stress, Base::first_piola_stress, Base::linearisation, Base::lambda,
+      Base::mu;
 
     template <class Number>
     SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
@@ -48,25 +50,6 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
-    {
-      const Number pressure = lambda * volumetric_strain(F);
-      return first_piola_stress(F, pressure);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
-    {
-      return first_piola_stress(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
-    {
-      return first_piola_stress(F);
-    }
-
-    template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
                                                        const Number &pressure) const
     {
@@ -100,12 +83,6 @@ namespace softcell
         return dP;
       }
     };
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation linearisation(const Matrix3<Number> &) const
-    {
-      return {mu, lambda};
-    }
 
     template <class Number>
     SOFTCELL_HOST_DEVICE Linearisation linearisation(const Matrix3<Number> &, const Number &) const

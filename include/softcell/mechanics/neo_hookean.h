@@ -2,17 +2,41 @@
 // The compressible Neo-Hookean law; what a law offers is told in laws.h.
 #pragma once
 
-#include <softcell/mechanics/kinematics.h>
+#include <softcell/mechanics/hyperelastic.h>
 
 #include <cmath>
 
 namespace softcell
 {
+  /// Of Law<Real>, a law derived from this, with W = mu/2 (tr C - 3) - mu v + lambda/2 v^2.
+  template <template <class> class Law, class Real>
+  struct NeoHookeanStress : Hyperelastic<Law, Real>
+  {
+    using Base = Hyperelastic<Law, Real>;
+    using Base::first_piola_stress, Base::lambda, Base::mu;
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
+    {
+      const Number v = Law<Real>::volumetric_strain(F);
+      return mu * (trace(green_lagrange_strain(F)) - v) + lambda / 2 * v * v;
+    }
+
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
+                                                            const Number &pressure) const
+    {
+      const Number factor = pressure - mu;
+      return mu * F + factor * Law<Real>::volumetric_gradient(F);
+    }
+  };
+
   /// W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2 (Brunet eq. 2.9), for J > 0.
   template <class Real = double>
-  struct NeoHookean
+  struct NeoHookean : NeoHookeanStress<NeoHookean, Real>
   {
-    Real lambda, mu;
+    using Base = NeoHookeanStress<softcell::NeoHookean, Real>;
+    using Base::linearisation, Base::lambda, Base::mu;
 
     template <class Number>
     SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
@@ -39,48 +63,6 @@ namespace softcell
     SOFTCELL_HOST_DEVICE static Matrix3<Number> volumetric_gradient(const Matrix3<Number> &F)
     {
       return transpose(inverse(F));
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
-    {
-      const Number ln_J = volumetric_strain(F);
-      return mu * (trace(green_lagrange_strain(F)) - ln_J) + lambda / 2 * ln_J * ln_J;
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
-                                                            const Number &pressure) const
-    {
-      const Number factor = pressure - mu;
-      return mu * F + factor * volumetric_gradient(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
-    {
-      const Number pressure = lambda * volumetric_strain(F);
-      return first_piola_stress(F, pressure);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
-    {
-      const Number pressure = lambda * volumetric_strain(F) - mu;
-      return mu * identity<Number>() + pressure * inverse(right_cauchy_green(F));
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F), F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
-                                                       const Number &pressure) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F, pressure), F);
     }
 
     /// dP = mu dF + (mu - lambda ln J) F^-T dF^T F^-T + lambda (F^-T : dF) F^-T.
@@ -121,12 +103,6 @@ namespace softcell
         return dP;
       }
     };
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
-    {
-      return {mu, lambda, mu - lambda * volumetric_strain(F), volumetric_gradient(F)};
-    }
 
     template <class Number>
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,

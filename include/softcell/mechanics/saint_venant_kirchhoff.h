@@ -2,16 +2,17 @@
 // The law of Saint-Venant and Kirchhoff; what a law offers is told in laws.h.
 #pragma once
 
-#include <softcell/mechanics/kinematics.h>
+#include <softcell/mechanics/hyperelastic.h>
 
 namespace softcell
 {
   /// W = lambda/2 (tr E)^2 + mu E : E (Brunet eq. 2.8). It has a value for J <= 0 too, but one that
   /// resists no inversion, so that is refused.
   template <class Real = double>
-  struct SaintVenantKirchhoff
+  struct SaintVenantKirchhoff : Hyperelastic<SaintVenantKirchhoff, Real>
   {
-    Real lambda, mu;
+    using Base = Hyperelastic<softcell::SaintVenantKirchhoff, Real>;
+    using Base::first_piola_stress, Base::linearisation, Base::lambda, Base::mu;
 
     template <class Number>
     SOFTCELL_HOST_DEVICE static auto is_admissible(const Number &J)
@@ -40,6 +41,7 @@ namespace softcell
       return lambda / 2 * tr_E * tr_E + mu * double_contraction(E, E);
     }
 
+    /// S = F^-1 P.
     template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F,
                                                              const Number &pressure) const
@@ -48,36 +50,10 @@ namespace softcell
     }
 
     template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> second_piola_stress(const Matrix3<Number> &F) const
-    {
-      const Number pressure = lambda * volumetric_strain(F);
-      return second_piola_stress(F, pressure);
-    }
-
-    template <class Number>
     SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F,
                                                             const Number &pressure) const
     {
       return F * second_piola_stress(F, pressure);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> first_piola_stress(const Matrix3<Number> &F) const
-    {
-      return F * second_piola_stress(F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F), F);
-    }
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> cauchy_stress(const Matrix3<Number> &F,
-                                                       const Number &pressure) const
-    {
-      return softcell::cauchy_stress(first_piola_stress(F, pressure), F);
     }
 
     /// dP = dF S + F dS, dS = lambda tr(dE) I + 2 mu dE, dE = sym(F^T dF).
@@ -116,12 +92,6 @@ namespace softcell
         return dP;
       }
     };
-
-    template <class Number>
-    SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F) const
-    {
-      return {mu, lambda, F, second_piola_stress(F), F * transpose(F)};
-    }
 
     template <class Number>
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
