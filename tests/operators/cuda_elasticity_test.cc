@@ -7,9 +7,6 @@
 #include "matrix_free_problems.h"
 
 #include <softcell/base/exceptions.h>
-#include <softcell/discretization/immersed.h>
-
-#include <fstream>
 
 namespace
 {
@@ -90,21 +87,12 @@ namespace
 
   TEST(CudaElasticity, IsTheOneOfTheHostOnALiver)
   {
-    GeometryParameters geometry;
-    geometry.type   = "image";
-    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
-    geometry.scale  = 0.001;
-    geometry.labels = {255};
-    if (!std::ifstream(geometry.file))
-      GTEST_SKIP() << geometry.file << " is missing";
-    std::vector<std::string> remarks;
-    const auto body = make_body(geometry, remarks);
-    GridParameters grid;
-    grid.cells = {12};
-    const Immersed liver("weighted cell", 1, grid, {2}, *body, MPI_COMM_SELF);
+    const Problem p = liver("weighted cell", 12);
+    if (!p.discretization)
+      GTEST_SKIP() << "The liver's image is missing.";
     const Material material("Neo-Hookean", 5000, 0.45);
-    expect_kernels_agree<double>(liver, material, 1e-12);
-    expect_kernels_agree<float>(liver, material, 1e-5);
+    expect_kernels_agree<double>(*p.discretization, material, 1e-12);
+    expect_kernels_agree<float>(*p.discretization, material, 1e-5);
   }
 
   TEST(CudaElasticity, IsZeroInHeldUnknowns)

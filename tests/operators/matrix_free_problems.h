@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace softcell
 {
@@ -19,6 +20,16 @@ namespace softcell
     std::unique_ptr<Body> body;
     std::unique_ptr<Discretization> discretization;
   };
+
+  inline Problem problem(const GeometryParameters &geometry,
+                         const DiscretizationParameters &parameters)
+  {
+    std::vector<std::string> remarks;
+    Problem result{make_body(geometry, remarks), nullptr};
+    result.discretization =
+      make_discretization(parameters, geometry, *result.body, MPI_COMM_SELF, remarks);
+    return result;
+  }
 
   inline Problem problem(const std::string &type,
                          const std::string &method,
@@ -31,17 +42,30 @@ namespace softcell
     geometry.radius = 0.5;
     geometry.length = 1.3;
     geometry.size   = Point(1.2, 1, 0.9);
-    std::vector<std::string> remarks;
-    Problem result{make_body(geometry, remarks), nullptr};
     DiscretizationParameters parameters;
     parameters.method                  = method;
     parameters.degree                  = degree;
     parameters.grid.cells              = {cells};
     parameters.grid.surface_refinement = surface_refinement;
     parameters.cut.levels              = 2;
-    result.discretization =
-      make_discretization(parameters, geometry, *result.body, MPI_COMM_SELF, remarks);
-    return result;
+    return problem(geometry, parameters);
+  }
+
+  // A segmented liver, if its image is at hand: no discretization otherwise.
+  inline Problem liver(const std::string &method, const unsigned int cells)
+  {
+    GeometryParameters geometry;
+    geometry.type   = "image";
+    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
+    geometry.scale  = 0.001;
+    geometry.labels = {255};
+    if (!std::filesystem::exists(geometry.file))
+      return {};
+    DiscretizationParameters parameters;
+    parameters.method     = method;
+    parameters.grid.cells = {cells};
+    parameters.cut.levels = 2;
+    return problem(geometry, parameters);
   }
 
   // Something without symmetry, different for each component and frequency.

@@ -14,7 +14,6 @@
 #include <omp.h>
 
 #include <cmath>
-#include <fstream>
 
 namespace
 {
@@ -122,23 +121,14 @@ namespace
 
   TEST(MatrixFreeElasticity, IsTheAssembledOneOnALiver)
   {
-    GeometryParameters geometry;
-    geometry.type   = "image";
-    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
-    geometry.scale  = 0.001;
-    geometry.labels = {255};
-    if (!std::ifstream(geometry.file))
-      GTEST_SKIP() << geometry.file << " is missing";
-    std::vector<std::string> remarks;
-    const auto body = make_body(geometry, remarks);
-    GridParameters grid;
-    grid.cells = {8};
     for (const std::string rule : {"weighted cell", "moment fitting"})
     {
-      const Immersed liver(rule, 1, grid, {2}, *body, MPI_COMM_SELF);
+      const Problem p = liver(rule, 8);
+      if (!p.discretization)
+        GTEST_SKIP() << "The liver's image is missing.";
       const Material material("Neo-Hookean", 5000, 0.45);
-      expect_agreement<double>(liver, material, 1e-12);
-      expect_agreement<float>(liver, material, 1e-5);
+      expect_agreement<double>(*p.discretization, material, 1e-12);
+      expect_agreement<float>(*p.discretization, material, 1e-5);
     }
   }
 
