@@ -3,6 +3,8 @@
 
 #include <softcell/loads/load_list.h>
 
+#include "load_checks.h"
+
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/loads/dead_loads.h>
@@ -10,17 +12,13 @@
 #include <softcell/loads/nodal_mapping.h>
 #include <softcell/loads/pressure.h>
 #include <softcell/loads/recorded_path.h>
-#include <softcell/loads/rigid_modes.h>
 #include <softcell/loads/supports.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <set>
 #include <sstream>
 
 namespace softcell
@@ -94,7 +92,7 @@ namespace softcell
               descriptions.begin(),
               descriptions.end(),
               [](const LoadDescription &load) { return load.kind == Kind::displacement; })),
-            held_(discretization, surface.bounding_box()),
+            checks_(discretization, surface.bounding_box()),
             loads_{{}, ImposedDisplacement(discretization), "", nullptr, {}}
       {
       }
@@ -151,10 +149,11 @@ namespace softcell
                                       "Manufactured solution at none.");
         const bool is_traction = load.kind == Kind::traction;
         Expression value(load.value, is_traction ? 3 : 1, load.place);
-        auto patches = surface_patches(region);
-        check_numbers(value, patches);
+        auto patches                    = surface_patches(region);
+        const std::vector<Point> points = points_of(patches);
+        checks_.check_numbers(value, points);
         if (load.kind != Kind::springs)
-          loaded_points_.emplace_back(load.place, points_of(patches));
+          checks_.note_loaded(load.place, points);
         if (is_traction)
           add_force<Traction>(std::move(patches), std::move(value), load.region);
         else if (load.kind == Kind::pressure)
@@ -168,11 +167,8 @@ namespace softcell
 
       Loads finish()
       {
-        for (const unsigned int i : loads_.imposed.unknowns())
-          if (i < discretization_.partitioner()->locally_owned_size())
-            held_.hold(i / 3, discretization_.node_positions()[i / 3], i % 3);
-        loads_.free_motions = held_.free_motions();
-        warn_of_idle_loads();
+        loads_.free_motions = checks_.free_motions(loads_.imposed);
+        loads_.warnings     = checks_.idle_loads();
         return std::move(loads_);
       }
 
@@ -201,13 +197,12 @@ namespace softcell
             for (const unsigned int node : *nodes)
               points.push_back(discretization_.node_positions()[node]);
             Expression displacement = imposed_displacement(load, points);
-            check_numbers(displacement, points);
+            checks_.check_numbers(displacement, points);
+            const auto patches = discretization_.surface_patches(region);
             if (how == "automatic" && n_displacements_ > 1)
-            {
-              const auto patches = discretization_.surface_patches(region);
-              check_agreement(load, patches, imposed_displacement(load, points_of(patches)));
-            }
-            note_supported(discretization_.surface_patches(region), displacement);
+              checks_.check_agreement(load.place, patches,
+                                      imposed_displacement(load, points_of(patches)));
+            checks_.note_supported(patches, displacement);
             loads_.imposed.add(load.region, *nodes, std::move(displacement));
             return;
           }
@@ -217,12 +212,13 @@ namespace softcell
                            "', which does not coincide with faces of cells; choose "
                            "automatic, penalty or Nitsche.");
         }
-        auto patches            = surface_patches(region);
-        Expression displacement = imposed_displacement(load, points_of(patches));
-        check_numbers(displacement, patches);
+        auto patches                    = surface_patches(region);
+        const std::vector<Point> points = points_of(patches);
+        Expression displacement         = imposed_displacement(load, points);
+        checks_.check_numbers(displacement, points);
         if (!is_nodal() && n_displacements_ > 1) // regions that meet share the nodes between them
-          check_agreement(load, patches, displacement);
-        note_supported(patches, displacement);
+          checks_.check_agreement(load.place, patches, displacement);
+        checks_.note_supported(patches, displacement);
         if (how == "penalty" || how == "automatic")
         {
           Expression stiffness = penalty(patches);
@@ -234,7 +230,7 @@ namespace softcell
                          "'Imposed displacement = penalty' or 'Surface integration = exact'.");
         else
         {
-          hold(patches, displacement, Expression("1", 1, load.place));
+          checks_.hold(patches, displacement, Expression("1", 1, load.place));
           add_force<Nitsche>(std::move(patches), std::move(displacement), materials_,
                              parameters_.nitsche_factor, load.region);
         }
@@ -277,19 +273,6 @@ namespace softcell
           load.place);
       }
 
-      static std::array<double, 3> coordinates(const Point &X)
-      {
-        return {{X[0], X[1], X[2]}};
-      }
-
-      static std::vector<Point> points_of(const std::vector<SurfacePatch> &patches)
-      {
-        std::vector<Point> points;
-        for (const SurfacePatch &patch : patches)
-          points.insert(points.end(), patch.points.begin(), patch.points.end());
-        return points;
-      }
-
       /// The stiffness of the entry Penalty. What each patch has of its own goes into its weights.
       Expression penalty(std::vector<SurfacePatch> &patches) const
       {
@@ -316,8 +299,8 @@ namespace softcell
                        Expression stiffness,
                        const std::string &region)
       {
-        check_numbers(stiffness, patches, true);
-        hold(patches, displacement, stiffness);
+        checks_.check_numbers(stiffness, points_of(patches), true);
+        checks_.hold(patches, displacement, stiffness);
         add_force<Penalty>(std::move(patches), std::move(displacement), std::move(stiffness),
                            region);
       }
@@ -339,116 +322,13 @@ namespace softcell
                          " selects nothing of the body's surface; mend its condition.");
       }
 
-      void check_numbers(const Expression &value,
-                         const std::vector<SurfacePatch> &patches,
-                         const bool is_stiffness = false) const
-      {
-        check_numbers(value, points_of(patches), is_stiffness);
-      }
-
-      /// The value must be a number at every point, that of a stiffness not negative: at full load
-      /// and, if it speaks of t, at each tenth of it.
-      void check_numbers(const Expression &value,
-                         const std::vector<Point> &points,
-                         const bool is_stiffness = false) const
-      {
-        std::ostringstream message;
-        for (unsigned int tenth = value.uses_time() ? 1 : 10; tenth <= 10; ++tenth)
-          for (const Point &X : points)
-          {
-            const Direction found = value.value(X, tenth / 10.);
-            const bool is_number  = std::all_of(found.begin_raw(), found.end_raw(),
-                                                [](double c) { return std::isfinite(c); });
-            if ((is_number && !(is_stiffness && found[0] < 0)) || !message.str().empty())
-              continue;
-            message << value.place() << " is " << (is_number ? "negative" : "not a finite number")
-                    << " at (" << X << "), t = " << tenth / 10.
-                    << "; mend the expression or the region.";
-          }
-        throw_on_all(discretization_.communicator(), message.str());
-      }
-
-      /// Points that an earlier displacement holds too must be held in the same place by both.
-      /// Points of the same piece of surface are equal to the last bit.
-      void check_agreement(const LoadDescription &load,
-                           const std::vector<SurfacePatch> &patches,
-                           const Expression &displacement)
-      {
-        const auto [lower, upper] = surface_.bounding_box().get_boundary_points();
-        const double round_off    = 1e-12 * lower.distance(upper);
-        std::ostringstream message;
-        for (const SurfacePatch &patch : patches)
-          for (const Point &X : patch.points)
-          {
-            const Direction g = displacement.value(X, 1);
-            HeldPoint here{&load.place, {}};
-            for (unsigned int c = 0; c < 3; ++c)
-              if (!displacement.is_free(c))
-                here.place[c] = g[c];
-            const HeldPoint &there = held_points_.emplace(coordinates(X), here).first->second;
-            for (unsigned int c = 0; c < 3 && message.str().empty(); ++c)
-              if (there.place[c] && here.place[c] &&
-                  std::abs(*there.place[c] - *here.place[c]) > round_off)
-                message << *there.load << " and " << load.place << " impose " << *there.place[c]
-                        << " m and " << *here.place[c] << " m along "
-                        << "xyz"[c] << " at (" << X
-                        << "); leave that component `free` in one of them or let the regions not "
-                           "meet.";
-          }
-        throw_on_all(discretization_.communicator(), message.str());
-      }
-
-      /// Notes that the points cannot move freely where the stiffness is not 0.
-      void hold(const std::vector<SurfacePatch> &patches,
-                const Expression &displacement,
-                const Expression &stiffness)
-      {
-        for (const SurfacePatch &patch : patches)
-          for (const Point &X : patch.points)
-            for (unsigned int c = 0; c < 3; ++c)
-              if (!displacement.is_free(c) && stiffness.value(X, 1)[0] > 0)
-                held_.hold(patch.nodes[0], X, c);
-      }
-
-      void note_supported(const std::vector<SurfacePatch> &patches, const Expression &displacement)
-      {
-        if (displacement.is_free(0) || displacement.is_free(1) || displacement.is_free(2))
-          return;
-        for (const Point &X : points_of(patches))
-          supported_points_.insert(coordinates(X));
-      }
-
-      void warn_of_idle_loads()
-      {
-        for (const auto &[place, points] : loaded_points_)
-        {
-          const auto n_moving = std::count_if(points.begin(), points.end(), [&](const Point &X) {
-            return supported_points_.count(coordinates(X)) == 0;
-          });
-          if (dealii::Utilities::MPI::sum(n_moving, discretization_.communicator()) == 0)
-            loads_.warnings.push_back(place + " deforms nothing: all of its region is held by a "
-                                              "clamp or a displacement; mend the region.");
-        }
-      }
-
-      /// Where a displacement imposed by forces puts a point of the surface.
-      struct HeldPoint
-      {
-        const std::string *load; // that holds it, its place
-        std::array<std::optional<double>, 3> place;
-      };
-
       const LoadParameters &parameters_;
       const Discretization &discretization_;
       const Surface &surface_;
       const std::vector<Material> &materials_;
       const DisplacementField *const reference_; // null if there is none
       const unsigned int n_displacements_;       // of the loads
-      HeldParts held_;
-      std::map<std::array<double, 3>, HeldPoint> held_points_;
-      std::set<std::array<double, 3>> supported_points_; // held in all components
-      std::vector<std::pair<std::string, std::vector<Point>>>
-        loaded_points_; // with the load's place
+      LoadChecks checks_;
       Loads loads_;
     };
   } // namespace
