@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Writing text files so that a reader never sees half of one.
+// Files that are to be read, and text files written so that a reader never sees half of one.
 
 #include <softcell/base/files.h>
 
@@ -14,6 +14,20 @@
 
 namespace softcell
 {
+  void check_file(const std::string &place, const std::string &file)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::is_directory(file, error))
+      throw BadInput(place + " is a folder; name a file in it.");
+    if (!fs::is_regular_file(file, error))
+      throw BadInput(place + ": there is no such file as " +
+                     fs::absolute(file, error).lexically_normal().string() +
+                     "; names count from the folder in which softcell is started.");
+    if (!std::ifstream(file))
+      throw BadInput(place + " cannot be opened; check its permissions.");
+  }
+
   void write_file(const std::string &file, const std::string &text)
   {
     const std::string part = file + ".part";

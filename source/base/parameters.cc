@@ -7,6 +7,7 @@
 
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -127,19 +128,12 @@ namespace softcell
     /// The whole file, or BadInput.
     std::string read_file(const std::string &file)
     {
-      namespace fs = std::filesystem;
-      std::error_code error;
-      if (!fs::exists(file, error))
-        throw BadInput("There is no parameter file '" + file + "'.");
-      if (fs::is_directory(file, error))
-        throw BadInput("'" + file + "' is a folder; give a parameter file.");
+      check_file("The parameter file '" + file + "'", file);
       std::ifstream in(file, std::ios::binary);
       std::stringstream text;
+      std::error_code error;
       constexpr auto largest = 1 << 20;
-      if (!in)
-        throw BadInput("The parameter file '" + file +
-                       "' cannot be opened; check its permissions.");
-      if (fs::file_size(file, error) <= largest || error)
+      if (std::filesystem::file_size(file, error) <= largest || error)
         text << in.rdbuf();
       std::string content = text.str();
       const bool is_text  = std::none_of(content.begin(), content.end(), [](const unsigned char c) {

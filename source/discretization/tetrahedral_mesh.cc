@@ -5,6 +5,7 @@
 
 #include <softcell/base/collective.h>
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 #include <softcell/discretization/sliver_removal.h>
 #include <softcell/geometry/surface.h>
 
@@ -276,9 +277,8 @@ namespace softcell
   {
     return made_on_rank_0(communicator, [&]() {
       const std::string complaint = "Discretization/Mesh file = " + file + " ";
+      check_file("Discretization/Mesh file = " + file, file);
       std::ifstream input(file);
-      if (!input)
-        throw BadInput(complaint + "cannot be opened; check the path.");
       check_text(input, complaint);
       dealii::Triangulation<3> triangulation;
       dealii::GridIn<3> reader(triangulation);

@@ -5,6 +5,8 @@
 
 #include "image_header.h"
 
+#include <softcell/base/files.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -20,15 +22,10 @@ namespace softcell
 {
   namespace
   {
-    std::string read_bytes(const std::string &file,
-                           const std::string &remedy = "check Geometry/File")
+    std::string read_bytes(const std::string &place, const std::string &file)
     {
-      std::error_code error;
-      if (std::filesystem::is_directory(file, error))
-        refuse_image(file, "it is a folder; name an image in it by Geometry/File.");
+      check_file(place, file);
       std::ifstream in(file, std::ios::binary);
-      if (!in)
-        refuse_image(file, "it cannot be opened; " + remedy + ".");
       std::ostringstream bytes;
       bytes << in.rdbuf();
       return bytes.str();
@@ -83,7 +80,7 @@ namespace softcell
       {
         data_file = std::filesystem::path(file).parent_path() / header.data_file;
         content =
-          read_bytes(data_file, "the header of " + file + " says that the voxels are there");
+          read_bytes("Geometry/File = " + file + ", whose header names its voxels", data_file);
       }
       const std::size_t start = std::min(header.data_start, content.size());
       content = header.compressed ? inflated(data_file, content, start) : content.substr(start);
@@ -192,7 +189,7 @@ namespace softcell
 
   LabelImage read_image(const std::string &file, const double scale)
   {
-    std::string content = read_bytes(file);
+    std::string content = read_bytes("Geometry/File = " + file, file);
     if (content.compare(0, 2, "\x1f\x8b") == 0)
       content = inflated(file, content, 0);
     const ImageHeader header = read_image_header(file, content);
@@ -226,7 +223,8 @@ namespace softcell
                    [](const unsigned char c) { return std::tolower(c); });
     if (ending != ".mhd" && ending != ".mha" && ending != ".nhdr" && ending != ".nrrd")
       return "";
-    const std::string name = read_image_header(file, read_bytes(file)).data_file;
+    const std::string name =
+      read_image_header(file, read_bytes("Geometry/File = " + file, file)).data_file;
     return name.empty() ? "" : path.parent_path() / name;
   }
 } // namespace softcell

@@ -5,6 +5,7 @@
 #include <softcell/geometry/surface_soup.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 
 #include <algorithm>
 #include <charconv>
@@ -390,18 +391,10 @@ namespace softcell
       std::string ending = std::filesystem::path(file).extension();
       std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
 
-      std::error_code error;
-      if (std::filesystem::is_directory(file, error))
-        throw BadInput(file + ": it is a folder; name a surface file in it by Geometry/File.");
-      if (!std::filesystem::is_regular_file(file, error))
-        throw BadInput(
-          file + ": there is no such file; check the name and the folder that it is relative to (" +
-          std::filesystem::current_path().string() + ").");
+      check_file("Geometry/File = " + file, file);
       std::ifstream stream(file, std::ios::binary);
       std::string content((std::istreambuf_iterator<char>(stream)),
                           std::istreambuf_iterator<char>());
-      if (!stream)
-        throw BadInput(file + ": the file cannot be read; check its permissions.");
       if (content.empty())
         throw BadInput(file + ": the file is empty; copy or export it again.");
 

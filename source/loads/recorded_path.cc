@@ -4,6 +4,7 @@
 #include <softcell/loads/recorded_path.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +28,8 @@ namespace softcell
 
   RecordedPath::RecordedPath(const std::string &file)
   {
+    check_file("Loads/Path = " + file, file);
     std::ifstream stream(file);
-    if (!stream)
-      throw BadInput("Loads/Path = '" + file +
-                     "' cannot be read; give a file of lines t, x, y, z.");
     unsigned int number = 0;
     for (std::string line; std::getline(stream, line);)
     {

@@ -4,6 +4,7 @@
 #include <softcell/output/checkpoint.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/base/files.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -134,8 +135,11 @@ namespace softcell
         content = read_content(file);
       content = mpi::broadcast(communicator, content);
       if (!content.is_good)
+      {
+        check_file("Solver/Start from = " + file, file);
         throw BadInput("The checkpoint '" + file +
                        "' cannot be read; give a whole one that softcell wrote.");
+      }
       return content;
     }
 

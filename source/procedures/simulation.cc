@@ -93,6 +93,19 @@ namespace softcell
                        parameters.discretization.mesh.file + "; remove one of the two.");
     }
 
+    /// @throws BadInput if what runs without a matrix has no background grid.
+    void check_matrix_free(const Parameters &parameters)
+    {
+      const std::string &method = parameters.discretization.method;
+      if (parameters.linear_solver.is_matrix_free() &&
+          (method == "tetrahedra" || method == "hexahedra"))
+        throw BadInput("Discretization/Method = " + method + " has no background grid, which '" +
+                       (parameters.procedure.mode == "dynamic"
+                          ? "Solver/Mode = dynamic"
+                          : "Solver/Preconditioner = geometric multigrid") +
+                       "' needs; choose weighted cell, moment fitting or sparse grid.");
+    }
+
     /// The same run with cells of twice the edge.
     Parameters coarser(Parameters parameters)
     {
@@ -140,6 +153,7 @@ namespace softcell
       for (Material &material : materials_)
         material = material.invertible();
     }
+    check_matrix_free(parameters_);
     check_memory(parameters, body, MPI_COMM_WORLD);
     if (!parameters.procedure.start_from.empty())
       take_refinement(parameters.procedure.start_from);

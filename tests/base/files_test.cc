@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Files are replaced as a whole; a user hears what cannot be written.
+// Files are replaced as a whole; a user hears what cannot be read or written.
 
 #include <softcell/base/exceptions.h>
 #include <softcell/base/files.h>
@@ -33,6 +33,31 @@ TEST(Files, ReplacesTheWhole)
   EXPECT_EQ(text.str(), "short\n");
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
   std::filesystem::remove(file);
+}
+
+TEST(Files, NamesWhatCannotBeReadByItsWholePath)
+{
+  const std::string here = std::filesystem::current_path().string();
+  const auto complaint   = [](const std::string &file) {
+    try
+    {
+      check_file("Section/Entry = " + file, file);
+    }
+    catch (const BadInput &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string file = own_name();
+  write_file(file, "text");
+  EXPECT_EQ(complaint(file), "");
+  std::filesystem::remove(file);
+  EXPECT_EQ(
+    complaint("./" + file)
+      .find("Section/Entry = ./" + file + ": there is no such file as " + here + "/" + file + ";"),
+    0u);
+  EXPECT_EQ(complaint("..").find("Section/Entry = .. is a folder"), 0u);
 }
 
 TEST(Files, NamesWhatCannotBeWritten)

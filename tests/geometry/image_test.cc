@@ -156,7 +156,7 @@ TEST_F(Image, NegativeLabelsKeepTheirSign)
 TEST_F(Image, RefusesBrokenFiles)
 {
   const std::string inr = inr_header() + voxels(), packed = gzipped(inr);
-  expect_refused(folder_ / "missing.inr", "cannot be opened");
+  expect_refused(folder_ / "missing.inr", "there is no such file");
   expect_refused(write("a.jpg", inr), "ending '.jpg'");
   expect_refused(write("empty.nrrd", ""), "no NRRD");
   expect_refused(write("a.mhd", inr), "no MetaImage");
@@ -170,7 +170,7 @@ TEST_F(Image, RefusesBrokenFiles)
   expect_refused(write("garbage.nrrd", nrrd_header("uchar", "gzip", nrrd_place) + voxels()),
                  "damaged");
   expect_refused(write("no.mhd", meta_header("MET_UCHAR", "", "nowhere.raw")),
-                 "nowhere.raw: it cannot be opened");
+                 "there is no such file as " + (folder_ / "nowhere.raw").string());
 }
 
 TEST_F(Image, RefusesWhatIsNoSegmentationInSpace)

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Writing text files so that a reader never sees half of one.
+// Files that are to be read, and text files written so that a reader never sees half of one.
 #pragma once
 
 #include <string>
 
 namespace softcell
 {
+  /// Sees whether a file can be read.
+  /// @param place  the entry that names it, with its value, or another name for it, for messages.
+  /// @throws BadInput with the whole path if not.
+  void check_file(const std::string &place, const std::string &file);
+
   /// Puts the text into the file in one move; what stood there before stays until then.
   /// @throws BadInput if the file cannot be written.
   void write_file(const std::string &file, const std::string &text);
