@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cook's membrane at finite strain by FEniCSx: the numbers with which tests/program/run_program.py compares softcell.
+"""Cook's membrane at finite strain by FEniCSx: the numbers with which tests/program/method_tests.py compares softcell.
 
 usage: cook_membrane.py     needs python3-dolfinx; prints the rows n x n of the table in README.md
 
