@@ -32,6 +32,17 @@ namespace softcell
     return r;
   }
 
+  /// u + e v and u - e v.
+  inline std::pair<Vector, Vector> on_both_sides(const Vector &u, const double e, const Vector &v)
+  {
+    std::pair<Vector, Vector> both(u, u);
+    both.first.add(e, v);
+    both.second.add(-e, v);
+    both.first.update_ghost_values();
+    both.second.update_ghost_values();
+    return both;
+  }
+
   /// |K v - (r(u + e v) - r(u - e v)) / 2e| / |K v|
   inline double tangent_error(const Discretization &body,
                               const Load &load,
@@ -39,13 +50,9 @@ namespace softcell
                               const Vector &v,
                               const double t)
   {
-    const double e = 1e-5;
-    Vector plus = u, minus = u;
-    plus.add(e, v);
-    minus.add(-e, v);
-    plus.update_ghost_values();
-    minus.update_ghost_values();
-    Vector difference = residual_of(body, load, plus, t);
+    const double e           = 1e-5;
+    const auto [plus, minus] = on_both_sides(u, e, v);
+    Vector difference        = residual_of(body, load, plus, t);
     difference -= residual_of(body, load, minus, t);
     difference /= 2 * e;
     Vector Kv = body.make_vector();
@@ -61,14 +68,10 @@ namespace softcell
                              const Vector &v,
                              const double t)
   {
-    const double e = 1e-5;
-    Vector plus = u, minus = u;
-    plus.add(e, v);
-    minus.add(-e, v);
-    plus.update_ghost_values();
-    minus.update_ghost_values();
-    const double slope = (load.energy(plus, t) - load.energy(minus, t)) / (2 * e);
-    const double work  = residual_of(body, load, u, t) * v;
+    const double e           = 1e-5;
+    const auto [plus, minus] = on_both_sides(u, e, v);
+    const double slope       = (load.energy(plus, t) - load.energy(minus, t)) / (2 * e);
+    const double work        = residual_of(body, load, u, t) * v;
     return std::abs(slope - work) / std::abs(work);
   }
 

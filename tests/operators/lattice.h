@@ -2,7 +2,7 @@
 // The simplest discretization, for tests and benchmarks of operators: a lattice of trilinear cubes.
 #pragma once
 
-#include <softcell/discretization/discretization.h>
+#include "../bare_discretization.h"
 
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -19,7 +19,7 @@ namespace softcell
   };
 
   /// Cubes of 1 m on this rank alone, with Gauss points. Only what the operators ask for is there.
-  class UnitCells : public Discretization
+  class UnitCells : public BareDiscretization
   {
   public:
     UnitCells(const std::array<unsigned int, 3> &n_cells,
@@ -75,37 +75,6 @@ namespace softcell
               {cell.weights.data(), cell.weights.size()},
               &tables_[tables_.size() == 1 ? 0 : i],
               {cell.labels.data(), cell.labels.size()}};
-    }
-
-    Size size() const override
-    {
-      return {};
-    }
-    unsigned int degree() const override
-    {
-      return 1;
-    }
-    void patch_points(unsigned int, std::vector<Point> &) const override {}
-
-    std::vector<SurfacePatch> surface_patches(const Region &) const override
-    {
-      return {};
-    }
-    std::optional<std::vector<unsigned int>> nodes_on(const Region &) const override
-    {
-      return {};
-    }
-    std::optional<PointShapes> shapes_at(const Point &, double) const override
-    {
-      return {};
-    }
-    Box owned_box() const override
-    {
-      return {};
-    }
-    DrawnCells drawn_cells() const override
-    {
-      return {};
     }
 
   private:

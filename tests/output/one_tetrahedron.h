@@ -2,7 +2,7 @@
 // The smallest discretization to write: a tetrahedron for every rank, next to each other along x.
 #pragma once
 
-#include <softcell/discretization/discretization.h>
+#include "../bare_discretization.h"
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
@@ -10,7 +10,7 @@
 
 namespace softcell::test
 {
-  class OneTetrahedronPerRank : public Discretization
+  class OneTetrahedronPerRank : public BareDiscretization
   {
   public:
     OneTetrahedronPerRank()
@@ -23,39 +23,6 @@ namespace softcell::test
         std::make_shared<const Partitioner>(owned, IndexSet(owned.size()), MPI_COMM_WORLD);
       node_positions_ = {Point(rank, 0, 0), Point(rank + 1, 0, 0), Point(rank, 1, 0),
                          Point(rank, 0, 1)};
-    }
-    Size size() const override
-    {
-      return {};
-    }
-    unsigned int degree() const override
-    {
-      return 1;
-    }
-    unsigned int n_patches() const override
-    {
-      return 1;
-    }
-    Patch patch(unsigned int, PatchStorage &) const override
-    {
-      return {};
-    }
-    void patch_points(unsigned int, std::vector<Point> &) const override {}
-    std::vector<SurfacePatch> surface_patches(const Region &) const override
-    {
-      return {};
-    }
-    std::optional<std::vector<unsigned int>> nodes_on(const Region &) const override
-    {
-      return {};
-    }
-    std::optional<PointShapes> shapes_at(const Point &, double) const override
-    {
-      return {};
-    }
-    Box owned_box() const override
-    {
-      return {};
     }
     DrawnCells drawn_cells() const override
     {

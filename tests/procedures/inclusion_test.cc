@@ -3,20 +3,20 @@
 
 #include "../box_surface.h"
 
+#include "small_problems.h"
+
 #include <softcell/geometry/surface_body.h>
-#include <softcell/procedures/simulation.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace
 {
   using namespace softcell;
 
   /// The unit cube with a cube of half its size in the middle, which is patch 7.
-  Surface nested_cubes()
+  std::unique_ptr<Body> nested_cubes()
   {
     const Surface outer                      = box_surface(Point(1, 1, 1), 1);
     std::vector<Point> vertices              = outer.vertices();
@@ -28,7 +28,8 @@ namespace
     for (const auto &[a, b, c] : outer.triangles())
       triangles.push_back({a + n, b + n, c + n});
     patches.resize(triangles.size(), 7);
-    return Surface(vertices, triangles, patches);
+    return std::make_unique<SurfaceBody>(Surface(vertices, triangles, patches),
+                                         std::vector<unsigned int>{7}, "");
   }
 } // namespace
 
@@ -37,7 +38,6 @@ namespace
 /// either end.
 TEST(Simulation, finite_cell_refines_towards_an_inclusion)
 {
-  const SurfaceBody body(nested_cubes(), {7}, "");
   for (const unsigned int levels : {2u, 4u})
   {
     Parameters p;
@@ -51,19 +51,15 @@ TEST(Simulation, finite_cell_refines_towards_an_inclusion)
     p.loads.gravity             = Direction({0, 0, -1e-3});
     p.regions                   = {{"base", "z < 1e-9"}};
     p.load_entries              = {{"base", "clamp"}};
-    std::ostringstream log;
-    Console console(log, false, 1e9);
-    Simulation simulation("test", p, body, console);
-    ASSERT_TRUE(simulation.solve("")) << simulation.reason();
-    const double step = std::pow(0.5, levels) / 3;
-    EXPECT_NEAR(std::cbrt(-simulation.row().number("gravity_fz")), 0.5, step);
+    const ResultsRow row        = solve(p, nested_cubes()).row;
+    const double step           = std::pow(0.5, levels) / 3;
+    EXPECT_NEAR(std::cbrt(-row.number("gravity_fz")), 0.5, step);
   }
 }
 
 /// The grid's planes are those of the cubes, so that volumes are exact but for tetrahedra.
 TEST(Simulation, inclusion_has_the_weight_of_its_own_material)
 {
-  const SurfaceBody body(nested_cubes(), {7}, "");
   for (const std::string method : {"finite cell", "weighted cell", "tetrahedra"})
   {
     SCOPED_TRACE(method);
@@ -79,13 +75,10 @@ TEST(Simulation, inclusion_has_the_weight_of_its_own_material)
     p.regions                      = {{"base", "z < 1e-9"}};
     p.load_entries                 = {{"base", "clamp"}};
 
-    std::ostringstream log;
-    Console console(log, false, 1e9);
-    Simulation simulation("test", p, body, console);
-    ASSERT_TRUE(simulation.solve("")) << simulation.reason();
+    const ResultsRow row   = solve(p, nested_cubes()).row;
     const double weight    = -10 * (1. + 8. / 8); // 8 kg/m^3 more in an eighth of the volume
     const double tolerance = method == "tetrahedra" ? 0.05 : 1e-9;
-    EXPECT_NEAR(simulation.row().number("gravity_fz"), weight, -tolerance * weight);
-    EXPECT_NEAR(simulation.row().number("base_fz"), -weight, -tolerance * weight);
+    EXPECT_NEAR(row.number("gravity_fz"), weight, -tolerance * weight);
+    EXPECT_NEAR(row.number("base_fz"), -weight, -tolerance * weight);
   }
 }
