@@ -5,6 +5,12 @@
 
 namespace softcell
 {
+  bool Cuda::is_there()
+  {
+    int n_devices = 0;
+    return cudaGetDeviceCount(&n_devices) == cudaSuccess && n_devices > 0;
+  }
+
   void *Cuda::allocate(const std::size_t n_bytes)
   {
     void *memory = nullptr;

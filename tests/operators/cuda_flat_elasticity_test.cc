@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The kernels of the graphics card for flat patches, run on the host, against the operator of the
-// host; and rows that change.
+// The kernels of the graphics card for flat patches, on the host and where there is a card, against
+// the operator of the host; and rows that change.
 
 #include <softcell/operators/cuda_flat_elasticity.h>
 #include <softcell/operators/flat_elasticity.h>
 
+#include "../devices.h"
 #include "lattice.h"
 #include "matrix_free_problems.h"
 
@@ -14,16 +15,24 @@ namespace
 {
   using namespace softcell;
 
+  template <class Device>
+  class CudaFlatElasticityTest : public DeviceTest<Device>
+  {
+  };
+  TYPED_TEST_SUITE(CudaFlatElasticityTest, Devices, DeviceNames);
+
   template <class Real>
   using Numbers = std::vector<Real>;
 
   /// Operators of host and device on the same patches.
-  template <class Real>
+  template <class Real, class Device>
   struct Both
   {
+    using Field = DeviceArray<Real, Device>;
+
     FlatPatches<Real> host_patches, device_patches;
     FlatElasticity<Real> host;
-    CudaFlatElasticity<Real, Serial> device;
+    CudaFlatElasticity<Real, Device> device;
 
     Both(const Discretization &discretization,
          const std::vector<Material> &materials,
@@ -39,42 +48,35 @@ namespace
     {
       const Numbers<Real> U(u.begin(), u.end()), X(x.begin(), x.end());
       Numbers<Real> expected(U.size());
-      DeviceArray<Real, Serial> y(U.size());
+      DeviceArray<Real, Device> y(U.size());
       host.set_state({U.data(), U.size()});
-      device.set_state(by_component(U));
+      device.set_state(Field(by_component(U)));
 
       host.residual({expected.data(), expected.size()});
       device.residual(y);
       compare(y, expected, bound);
 
       host.vmult({expected.data(), expected.size()}, {X.data(), X.size()});
-      device.vmult(y, by_component(X));
+      device.vmult(y, Field(by_component(X)));
       compare(y, expected, bound);
     }
 
-    static DeviceArray<Real, Serial> by_component(const Numbers<Real> &values)
+    static Numbers<Real> by_component(const Numbers<Real> &values)
     {
-      DeviceArray<Real, Serial> result(values.size());
+      Numbers<Real> result(values.size());
       for (std::size_t i = 0; i < values.size(); ++i)
-        result.data()[i % 3 * (values.size() / 3) + i / 3] = values[i];
+        result[i % 3 * (values.size() / 3) + i / 3] = values[i];
       return result;
     }
 
-    static void
-    compare(const DeviceArray<Real, Serial> &y, const Numbers<Real> &expected, const double bound)
+    static void compare(const Field &y, const Numbers<Real> &expected, const double bound)
     {
-      const DeviceArray<Real, Serial> other = by_component(expected);
-      double difference = 0, largest = 0;
-      for (std::size_t i = 0; i < expected.size(); ++i)
-      {
-        difference = std::max<double>(difference, std::abs(y.data()[i] - other.data()[i]));
-        largest    = std::max<double>(largest, std::abs(expected[i]));
-      }
-      EXPECT_LT(difference, bound * largest);
+      const Numbers<Real> other = by_component(expected);
+      EXPECT_LT((difference<Real, Device>(y, {other.data(), other.size()})), bound);
     }
   };
 
-  TEST(CudaFlatElasticity, IsTheOneOfTheHost)
+  TYPED_TEST(CudaFlatElasticityTest, IsTheOneOfTheHost)
   {
     struct Case
     {
@@ -91,8 +93,8 @@ namespace
       {
         SCOPED_TRACE(std::string(c.method) + ' ' + law);
         const Material material(law, 5000, 0.3);
-        Both<double>(*p.discretization, {material}).expect_agreement(u, x, 1e-12);
-        Both<float>(*p.discretization, {material}).expect_agreement(u, x, 1e-5);
+        Both<double, TypeParam>(*p.discretization, {material}).expect_agreement(u, x, 1e-12);
+        Both<float, TypeParam>(*p.discretization, {material}).expect_agreement(u, x, 1e-5);
       }
     }
   }
@@ -111,20 +113,20 @@ namespace
     }
   };
 
-  TEST(CudaFlatElasticity, MayHaveSeveralMaterials)
+  TYPED_TEST(CudaFlatElasticityTest, MayHaveSeveralMaterials)
   {
     const TwoMaterials two;
-    Both<double>(two.cells, two.materials)
+    Both<double, TypeParam>(two.cells, two.materials)
       .expect_agreement(wavy(two.cells, 0.03, 2), wavy(two.cells, 1, 7), 1e-12);
   }
 
   // Points lose nodes, win others, and change their weights, as when a body is cut.
-  TEST(CudaFlatElasticity, TakesRowsThatChange)
+  TYPED_TEST(CudaFlatElasticityTest, TakesRowsThatChange)
   {
     const UnitCells cells({{4, 3, 3}}, 2);
     const std::vector<Material> materials{Material("Neo-Hookean", 5000, 0.3)};
     const Vector u = wavy(cells, 0.03, 2), x = wavy(cells, 1, 7);
-    Both<double> both(cells, materials, 4);
+    Both<double, TypeParam> both(cells, materials, 4);
     both.expect_agreement(u, x, 1e-12);
     const Numbers<double> X(x.begin(), x.end());
     Numbers<double> before(X.size()), after(X.size());
@@ -150,7 +152,7 @@ namespace
     EXPECT_TRUE(both.device_patches.take_changes().rows.empty());
   }
 
-  TEST(CudaFlatElasticity, ChangesNothingWithoutRoom)
+  TEST(FlatPatches, ChangesNothingWithoutRoom)
   {
     const UnitCells cells({{4, 3, 3}}, 2);
     FlatPatches<double> patches(cells, card_width, 2);

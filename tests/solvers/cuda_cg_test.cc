@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The conjugate gradients of the graphics card, run on the host.
+// The conjugate gradients of the graphics card, on the host and where there is a card.
 
 #include <softcell/solvers/cuda_cg.h>
 
@@ -11,7 +11,7 @@
 #include <softcell/operators/uniform_cells.h>
 #include <softcell/solvers/linear_solver.h>
 
-#include <gtest/gtest.h>
+#include "../devices.h"
 
 #include <cmath>
 
@@ -19,8 +19,11 @@ namespace
 {
   using namespace softcell;
 
-  template <class Real>
-  using Array = DeviceArray<Real, Serial>;
+  template <class Device>
+  class CudaCGTest : public DeviceTest<Device>
+  {
+  };
+  TYPED_TEST_SUITE(CudaCGTest, Devices, DeviceNames);
 
   /// A clamped ball of weighted cells under its weight.
   struct ClampedBall
@@ -50,14 +53,14 @@ namespace
   };
 
   /// Solves on the device.
-  template <class Real>
+  template <class Real, class Device>
   Vector solve_on_device(const ClampedBall &ball,
                          const Material &material,
                          const double tolerance,
                          std::vector<double> &history)
   {
     const CellLattice lattice = cell_lattice(*ball.cells);
-    CudaElasticity<Real, Serial> tangent(CellBricks<Real>(lattice), material);
+    CudaElasticity<Real, Device> tangent(CellBricks<Real>(lattice), material);
     std::vector<unsigned char> held(lattice.nodes.size(), 0);
     for (const unsigned int unknown : ball.clamped)
       held[lattice.entries[unknown / 3]] |= 1 << unknown % 3;
@@ -66,11 +69,11 @@ namespace
     LatticeVector<Real> field(lattice.nodes);
     copy(ball.load, lattice.entries, field);
     const std::size_t size = field.entries().size();
-    Array<Real> x(size), b(size), blocks(2 * size);
+    DeviceArray<Real, Device> x(size), b(size), blocks(2 * size);
     tangent.set_state(x);
     tangent.diagonal(blocks);
     b.copy_from(field.entries().data());
-    CudaCG<Real, Serial> cg(size);
+    CudaCG<Real, Device> cg(size);
     cg.set_diagonal(blocks);
     cg.solve([&](auto &y, const auto &p) { tangent.vmult(y, p); }, x, b, tolerance, 500);
     history = cg.history();
@@ -81,7 +84,7 @@ namespace
   }
 
   // The history is compared while it is far above rounding errors, which grow with iterations.
-  TEST(CudaCG, IteratesAsTheHostDoes)
+  TYPED_TEST(CudaCGTest, IteratesAsTheHostDoes)
   {
     const ClampedBall ball;
     const Material material("Neo-Hookean", 5000, 0.3);
@@ -99,19 +102,20 @@ namespace
     solver->solve(expected, ball.load);
 
     std::vector<double> history;
-    Vector x = solve_on_device<double>(ball, material, 1e-8, history);
+    Vector x = solve_on_device<double, TypeParam>(ball, material, 1e-8, history);
     ASSERT_EQ(history.size(), solver->history().size());
     for (unsigned int i = 0; i < history.size(); ++i)
       EXPECT_NEAR(history[i], solver->history()[i], 1e-10);
     x -= expected;
     EXPECT_LT(x.linfty_norm(), 1e-10 * expected.linfty_norm());
 
-    Vector rough = solve_on_device<float>(ball, material, 1e-5, history);
+    Vector rough = solve_on_device<float, TypeParam>(ball, material, 1e-5, history);
     rough -= expected;
     EXPECT_LT(rough.linfty_norm(), 1e-3 * expected.linfty_norm());
   }
 
   /// A x = entries * x
+  template <class Device>
   struct Diagonal
   {
     std::vector<double> entries;
@@ -119,13 +123,15 @@ namespace
     unsigned int solve(const std::vector<double> &b, std::vector<double> &x) const
     {
       const std::size_t n = entries.size();
-      Array<double> device_b(b), device_x(n), ones(std::vector<double>(n, 1.));
-      CudaCG<double, Serial> cg(n);
+      DeviceArray<double, Device> device_b(b), device_x(n), ones(std::vector<double>(n, 1.));
+      CudaCG<double, Device> cg(n);
       cg.set_diagonal(ones);
       const unsigned int iterations = cg.solve(
         [&](auto &y, const auto &p) {
+          std::vector<double> values = on_host(p);
           for (std::size_t i = 0; i < n; ++i)
-            y.data()[i] = entries[i] * p.data()[i];
+            values[i] *= entries[i];
+          y.copy_from(values.data());
         },
         device_x, device_b, 1e-12, 5);
       x.resize(n);
@@ -135,9 +141,9 @@ namespace
   };
 
   // More entries than all threads of all blocks, and a rest.
-  TEST(CudaCG, NeedsOneIterationPerEigenvalue)
+  TYPED_TEST(CudaCGTest, NeedsOneIterationPerEigenvalue)
   {
-    Diagonal A;
+    Diagonal<TypeParam> A;
     std::vector<double> b, x;
     for (unsigned int i = 0; i < 70001; ++i)
     {
@@ -149,16 +155,17 @@ namespace
       ASSERT_NEAR(x[i], 1. / (1 + i % 3), 1e-12);
   }
 
-  TEST(CudaCG, StopsAtNegativeCurvature)
+  TYPED_TEST(CudaCGTest, StopsAtNegativeCurvature)
   {
     std::vector<double> x;
-    EXPECT_EQ((Diagonal{{-4, -4}}.solve({1, 1}, x)), 1U);
+    EXPECT_EQ((Diagonal<TypeParam>{{-4, -4}}.solve({1, 1}, x)), 1U);
     EXPECT_DOUBLE_EQ(x[0], 0.25);
-    EXPECT_EQ((Diagonal{{4, -1}}.solve({1, 0.5}, x)), 2U);
+    EXPECT_EQ((Diagonal<TypeParam>{{4, -1}}.solve({1, 0.5}, x)), 2U);
     // the first step: 1.25 / (4 - 0.25)
     EXPECT_DOUBLE_EQ(x[0], 1 / 3.);
     EXPECT_DOUBLE_EQ(x[1], 0.5 / 3);
-    EXPECT_THROW((Diagonal{{1, 2, 3, 4, 5, 6, 7}}.solve({1, 1, 1, 1, 1, 1, 1}, x)), NotConverged);
-    EXPECT_THROW((Diagonal{{1, NAN}}.solve({1, 1}, x)), NotConverged);
+    EXPECT_THROW((Diagonal<TypeParam>{{1, 2, 3, 4, 5, 6, 7}}.solve({1, 1, 1, 1, 1, 1, 1}, x)),
+                 NotConverged);
+    EXPECT_THROW((Diagonal<TypeParam>{{1, NAN}}.solve({1, 1}, x)), NotConverged);
   }
 } // namespace

@@ -20,6 +20,7 @@ namespace softcell
   /// A graphics card. Its functions throw std::runtime_error with what CUDA has to say.
   struct Cuda
   {
+    static bool is_there();
     /// @return zeros
     static void *allocate(std::size_t n_bytes);
     static void release(void *memory);
@@ -34,6 +35,10 @@ namespace softcell
   /// indices.
   struct Serial
   {
+    static bool is_there()
+    {
+      return true;
+    }
     static void *allocate(std::size_t n_bytes);
     static void release(void *memory);
     static void copy(void *to, const void *from, std::size_t n_bytes);
