@@ -1,62 +1,134 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// How fast the tangent of a Neo-Hookean body acts on a vector on a graphics card, and conjugate
-// gradients iterate there; doc/gpu.md has what is predicted.
+// How fast tangents act on a vector on a graphics card, cell by cell and by rows, and conjugate
+// gradients iterate there; and what the card could do at most. doc/gpu.md has what came out.
 
+#include <softcell/base/exceptions.h>
+#include <softcell/discretization/immersed.h>
+#include <softcell/geometry/geometry.h>
 #include <softcell/operators/cuda_elasticity.h>
-#include <softcell/operators/uniform_cells.h>
+#include <softcell/operators/cuda_flat_elasticity.h>
+#include <softcell/operators/flat_patches.h>
+#include <softcell/operators/lattice_unknowns.h>
 #include <softcell/solvers/cuda_cg.h>
+
+#include "../tests/operators/lattice.h"
+#include "cuda_peak.h"
+
+#include <deal.II/base/mpi.h>
 
 #include <benchmark/benchmark.h>
 
-#include <exception>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
 
 namespace
 {
   using namespace softcell;
+  using benchmark::Counter;
 
-  constexpr int n_box = 69; // cells along each axis: 1.03 million unknowns
-
-  CellLattice full_box()
+  /// n x n x n full cells.
+  CellLattice box(const int n)
   {
-    CellLattice box{
-      NodeLattice(std::array<int, 3>{{n_box, n_box, n_box}}), Direction(), {}, {}, {}};
-    box.spacing[0] = box.spacing[1] = box.spacing[2] = 1. / n_box;
-    GaussCell cell;
-    cell.weights.fill(box.spacing[0] * box.spacing[1] * box.spacing[2] / 8);
-    for (int k = 0; k < n_box; ++k)
-      for (int j = 0; j < n_box; ++j)
-        for (int i = 0; i < n_box; ++i)
+    const double h = 1. / n;
+    CellLattice cells{NodeLattice(std::array<int, 3>{{n, n, n}}), Direction({h, h, h}), {}, {}, {}};
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
         {
-          cell.place = {{i, j, k}};
-          box.gauss_cells.push_back(cell);
+          cells.gauss_cells.push_back({{{i, j, k}}, {}});
+          cells.gauss_cells.back().weights.fill(h * h * h / 8);
         }
-    return box;
+    return cells;
   }
 
-  /// The tangent of the box at rest, clamped at its lower face.
+  CellLattice liver(const unsigned int n)
+  {
+    GeometryParameters geometry;
+    geometry.type   = "image";
+    geometry.file   = SOFTCELL_LIVER;
+    geometry.scale  = 0.001;
+    geometry.labels = {255};
+    std::vector<std::string> remarks;
+    const auto body = make_body(geometry, remarks);
+    GridParameters grid;
+    grid.cells = {n};
+    CutParameters cut;
+    cut.levels = 2;
+    return cell_lattice(Immersed("weighted cell", 1, grid, cut, *body, MPI_COMM_SELF));
+  }
+
+  /// Each cell in eight, which share out what its Gauss points have.
+  CellLattice refined(const CellLattice &cells)
+  {
+    std::array<int, 3> n;
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = 2 * cells.nodes.n_cells()[d];
+    CellLattice fine{NodeLattice(n), cells.spacing / 2., {}, {}, {}};
+    for (const GaussCell &cell : cells.gauss_cells)
+      for (int q = 0; q < 8; ++q)
+        if (cell.weights[q] > 0)
+        {
+          fine.gauss_cells.push_back({{{2 * cell.place[0] + q % 2, 2 * cell.place[1] + q / 2 % 2,
+                                        2 * cell.place[2] + q / 4}},
+                                      {}});
+          fine.gauss_cells.back().weights.fill(cell.weights[q] / 8);
+        }
+    return fine;
+  }
+
+  /// Of about one or eight million unknowns; made once.
+  const CellLattice &lattice(const std::string &body, const int millions)
+  {
+    static std::map<std::pair<std::string, int>, CellLattice> lattices;
+    const auto known = lattices.find({body, millions});
+    if (known != lattices.end())
+      return known->second;
+    CellLattice cells = body == "box"   ? box(millions == 1 ? 69 : 139)
+                        : millions == 1 ? liver(86)
+                                        : refined(lattice(body, 1));
+    return lattices.insert({{body, millions}, std::move(cells)}).first->second;
+  }
+
+  /// The tangent of a body at rest that is held at its lowest nodes, and a force across.
   template <class Real>
   struct Problem
   {
+    LatticeUnknowns unknowns;
     CudaElasticity<Real, Cuda> tangent;
     DeviceArray<Real, Cuda> x, y, b;
 
-    explicit Problem(const CellLattice &box)
-        : tangent(CellBricks<Real>(box), Material("Neo-Hookean", 5000, 0.3)),
-          x(3 * box.nodes.size()),
+    Problem(const CellLattice &cells, const std::string &law)
+        : unknowns(cells, lowest(cells)),
+          tangent(CellBricks<Real>(cells), Material(law, 5000, 0.3)),
+          x(3 * cells.nodes.size()),
           y(x.size()),
           b(x.size())
     {
-      std::vector<unsigned char> held(box.nodes.size(), 0);
-      LatticeVector<Real> load(box.nodes);
-      for (int j = 0; j <= n_box; ++j)
-        for (int i = 0; i <= n_box; ++i)
-        {
-          held[box.nodes.entry(i, j, 0)]                  = 7;
-          load.component(1)[box.nodes.entry(i, j, n_box)] = 1;
-        }
+      std::vector<unsigned char> held(cells.nodes.size(), 7);
+      LatticeVector<Real> load(cells.nodes);
+      for (const std::size_t entry : unknowns.free_entries())
+      {
+        held[entry % held.size()] &= ~(1U << entry / held.size());
+        load.entries()[entry] = entry / held.size() == 0 ? 1 : 0;
+      }
       tangent.set_state(x);
       tangent.hold(held);
       b.copy_from(load.entries().data());
+    }
+
+    static std::vector<std::size_t> lowest(const CellLattice &cells)
+    {
+      int bottom = cells.nodes.n_cells()[2];
+      for (const GaussCell &cell : cells.gauss_cells)
+        bottom = std::min(bottom, cell.place[2]);
+      std::vector<std::size_t> entries;
+      const std::size_t plane = cells.nodes.plane();
+      for (std::size_t node = bottom * plane; node < (bottom + 1) * plane; ++node)
+        for (unsigned int c = 0; c < dim; ++c)
+          entries.push_back(c * cells.nodes.size() + node);
+      return entries;
     }
   };
 
@@ -68,53 +140,144 @@ namespace
     Cuda::copy(&first, field.data(), sizeof(first));
   }
 
-  /// Runs `work` n times between two looks at the clock.
-  template <class Real, class Work>
-  void measure(benchmark::State &state, const Work &work)
+  /// Between two looks at the clock, so that starts and ends do not count.
+  constexpr int n_runs = 100;
+
+  Counter rate(const double n)
   {
-    try
-    {
-      Problem<Real> problem(full_box());
-      double n = 0;
-      for ([[maybe_unused]] auto _ : state)
-        n += work(problem);
-      state.counters["unknowns/s"] = benchmark::Counter(
-        n * 3 * (n_box + 1) * (n_box + 1) * (n_box + 1), benchmark::Counter::kIsRate);
-    }
-    catch (const std::exception &error)
-    {
-      state.SkipWithError(error.what());
-    }
+    return {n, Counter::kIsIterationInvariantRate};
   }
 
   template <class Real>
-  void tangent_action(benchmark::State &state)
+  void tangent_action(benchmark::State &state,
+                      const std::string &body,
+                      const int millions,
+                      const std::string &law)
   {
-    measure<Real>(state, [](Problem<Real> &p) {
-      constexpr int n = 100;
-      for (int i = 0; i < n; ++i)
+    Problem<Real> p(lattice(body, millions), law);
+    p.tangent.vmult(p.y, p.b);
+    wait_for(p.y);
+    for (auto _ : state)
+    {
+      for (int i = 0; i < n_runs; ++i)
         p.tangent.vmult(p.y, p.b);
       wait_for(p.y);
-      return n;
-    });
+    }
+    const double n               = p.unknowns.free_entries().size();
+    state.counters["unknowns"]   = n;
+    state.counters["unknowns/s"] = rate(n_runs * n);
+    state.counters["cells/s"] = rate(double(n_runs) * lattice(body, millions).gauss_cells.size());
+  }
+
+  /// Rows of weighted cells, n along each axis.
+  template <class Real>
+  void rows(benchmark::State &state)
+  {
+    const unsigned int n = 69;
+    const UnitCells cells({{n, n, n}}, 2);
+    const FlatPatches<Real> patches(cells, card_width);
+    CudaFlatElasticity<Real, Cuda> tangent(patches.arrays(), {Material("Neo-Hookean", 5000, 0.3)});
+    std::vector<Real> values(3 * cells.node_positions().size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = std::cos(Real(0.3) * i);
+    DeviceArray<Real, Cuda> u(values.size()), x(values), y(values.size());
+    tangent.set_state(u);
+    for (auto _ : state)
+    {
+      for (int i = 0; i < n_runs; ++i)
+        tangent.vmult(y, x);
+      wait_for(y);
+    }
+    state.counters["unknowns"]   = values.size();
+    state.counters["unknowns/s"] = rate(double(n_runs) * values.size());
   }
 
   template <class Real>
-  void conjugate_gradients(benchmark::State &state)
+  void conjugate_gradients(benchmark::State &state, const std::string &body, const int millions)
   {
-    measure<Real>(state, [](Problem<Real> &p) {
-      DeviceArray<Real, Cuda> blocks(2 * p.x.size());
-      p.tangent.diagonal(blocks);
-      CudaCG<Real, Cuda> cg(p.x.size());
-      cg.set_diagonal(blocks);
-      return cg.solve([&](auto &y, const auto &x) { p.tangent.vmult(y, x); }, p.x, p.b, 1e-4, 2000);
-    });
+    Problem<Real> p(lattice(body, millions), "Neo-Hookean");
+    DeviceArray<Real, Cuda> blocks(2 * p.x.size());
+    p.tangent.diagonal(blocks);
+    CudaCG<Real, Cuda> cg(p.x.size());
+    cg.set_diagonal(blocks);
+    for (auto _ : state)
+      try
+      {
+        cg.solve([&](auto &y, const auto &x) { p.tangent.vmult(y, x); }, p.x, p.b, 1e-6, 300);
+      }
+      catch (const NotConverged &)
+      {
+      }
+    const double n                 = cg.history().size();
+    state.counters["iterations"]   = n;
+    state.counters["iterations/s"] = rate(n);
+    state.counters["unknowns/s"]   = rate(n * p.unknowns.free_entries().size());
   }
 
-  BENCHMARK_TEMPLATE(tangent_action, double)->UseRealTime();
-  BENCHMARK_TEMPLATE(tangent_action, float)->UseRealTime();
-  BENCHMARK_TEMPLATE(conjugate_gradients, double)->UseRealTime();
-  BENCHMARK_TEMPLATE(conjugate_gradients, float)->UseRealTime();
+  /// Copies 2 GiB; bytes that are read and bytes that are written.
+  void copy_memory(benchmark::State &state)
+  {
+    DeviceArray<double, Cuda> from(1 << 28), to(from.size());
+    for (auto _ : state)
+    {
+      for (int i = 0; i < 10; ++i)
+        to.copy_from(from);
+      wait_for(to);
+    }
+    state.counters["bytes/s"] = rate(10 * 2. * sizeof(double) * from.size());
+  }
+
+  template <class Real>
+  void fused_operations(benchmark::State &state)
+  {
+    using Kernel                   = FusedKernel<Real>;
+    constexpr std::size_t n_blocks = 1 << 14;
+    DeviceArray<Real, Cuda> results(n_blocks * Kernel::n_threads);
+    for (auto _ : state)
+    {
+      Cuda::launch(Kernel{results.data()}, n_blocks);
+      wait_for(results);
+    }
+    state.counters["operations/s"] = rate(2. * Kernel::n_chains * Kernel::n_steps * results.size());
+  }
+
+  template <class Real>
+  void register_all(const std::string &real)
+  {
+    const auto add = [&](const std::string &name, const auto &f) {
+      benchmark::RegisterBenchmark((name + '/' + real).c_str(), f)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+    };
+    add("fused operations", fused_operations<Real>);
+    std::vector<std::string> bodies{"box"};
+    if (std::ifstream(SOFTCELL_LIVER))
+      bodies.emplace_back("liver");
+    for (const std::string &body : bodies)
+      for (const int millions : {1, 8})
+      {
+        const std::string problem = body + '/' + std::to_string(millions) + "e6";
+        for (const std::string law : {"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"})
+          add("tangent/" + problem + '/' + law,
+              [=](benchmark::State &state) { tangent_action<Real>(state, body, millions, law); });
+        add("conjugate gradients/" + problem,
+            [=](benchmark::State &state) { conjugate_gradients<Real>(state, body, millions); });
+      }
+    add("tangent by rows", rows<Real>);
+  }
 } // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (!Cuda::is_there())
+  {
+    std::cerr << "There is no graphics card.\n";
+    return 1;
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("copy", copy_memory)->UseRealTime()->Unit(benchmark::kMillisecond);
+  register_all<double>("double");
+  register_all<float>("float");
+  benchmark::RunSpecifiedBenchmarks();
+}
