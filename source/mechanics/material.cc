@@ -57,4 +57,13 @@ namespace softcell
       material.law_ = InvertibleNeoHookean<>{law->lambda, law->mu};
     return material;
   }
+
+  Material Material::definite() const
+  {
+    return visit([&](const auto &law) {
+      const bool is_linear = std::is_same_v<std::decay_t<decltype(law)>, LinearElastic<>>;
+      const double young   = law.mu * (3 * law.lambda + 2 * law.mu) / (law.lambda + law.mu);
+      return Material(is_linear ? "linear" : "Neo-Hookean", young, poisson_ratio(), density_);
+    });
+  }
 } // namespace softcell

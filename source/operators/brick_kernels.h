@@ -206,46 +206,6 @@ namespace softcell
     }
   };
 
-  /// Sums up what the bricks have for each node.
-  template <class Real>
-  struct NodeKernel
-  {
-    using Bricks  = CellBricks<Real>;
-    using Scratch = Real;
-
-    static constexpr int n_threads = Bricks::n_cells, n_phases = 1, n_scratch = 0;
-
-    int row, plane, n_bricks, n_components;
-    std::size_t n_entries;
-    const typename Bricks::NodeBrick *node_bricks;
-    const unsigned char *held; // (n_entries) bits: components; or null
-    const Real *sums;          // (n_components, bricks, n_corners)
-    Real *field;               // (n_components, n_entries)
-
-    SOFTCELL_HOST_DEVICE void
-    operator()(int /*phase*/, const int block, const int thread, Real * /*scratch*/) const
-    {
-      const auto &brick = node_bricks[block];
-      const int x = thread % 8, y = thread / 8 % 4, z = thread / 32;
-      if (y >= brick.n_rows[0] || z >= brick.n_rows[1])
-        return;
-      const int entry  = brick.entry + x + row * y + plane * z;
-      const int is_set = held == nullptr ? 0 : held[entry];
-      for (int c = 0; c < n_components; ++c)
-      {
-        Real sum = 0;
-        for (int side = 0; side < 8; ++side)
-        {
-          const int dx = side & 1, dy = side >> 1 & 1, dz = side >> 2, b = brick.bricks[side];
-          if (b >= 0 && (dx == 0 || x == 0) && (dy == 0 || y == 0) && (dz == 0 || z == 0))
-            sum += sums[(c * std::size_t(n_bricks) + b) * Bricks::n_corners + x + 8 * dx +
-                        9 * (y + 4 * dy + 5 * (z + 4 * dz))];
-        }
-        field[c * n_entries + entry] = is_set >> c & 1 ? Real(0) : sum;
-      }
-    }
-  };
-
   template <class Real, class Law>
   struct TangentAction
   {
@@ -296,13 +256,14 @@ namespace softcell
 
     Law law;
     Components<const Real> u;
+    bool is_tensile; // see Stresses
     Real *pressures;
 
     SOFTCELL_HOST_DEVICE unsigned int operator()(const ThreadCell<Real, shares_state> &cell,
                                                  const CellGeometry<Real> &geometry,
                                                  Real * /*corners*/) const
     {
-      return keep_pressures(cell, law, geometry, u, false, pressures);
+      return keep_pressures(cell, law, geometry, u, is_tensile, pressures);
     }
   };
 

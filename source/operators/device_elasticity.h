@@ -3,12 +3,11 @@
 #pragma once
 
 #include "brick_kernels.h"
+#include "inverted_points.h"
+#include "node_kernels.h"
 
 #include <softcell/base/device_launch.h>
-#include <softcell/base/exceptions.h>
 #include <softcell/operators/cuda_elasticity.h>
-
-#include <numeric>
 
 namespace softcell
 {
@@ -64,23 +63,12 @@ namespace softcell
   }
 
   template <class Real, class Device>
-  void CudaElasticity<Real, Device>::sum_up(Field &y, const int n_components)
+  template <class Action>
+  void CudaElasticity<Real, Device>::run_nodes(const Action &action)
   {
-    Device::launch(NodeKernel<Real>{int(row_), int(plane_), int(entries_.size()), n_components,
-                                    n_entries_, node_bricks_.data(), held_.data(), sums_.data(),
-                                    y.data()},
+    Device::launch(NodeKernel<Real, Action>{int(row_), int(plane_), int(entries_.size()),
+                                            node_bricks_.data(), sums_.data(), action},
                    node_bricks_.size());
-  }
-
-  template <class Real, class Device>
-  void CudaElasticity<Real, Device>::throw_if_inverted() const
-  {
-    std::vector<int> counts(n_inverted_.size());
-    n_inverted_.copy_to(counts.data());
-    if (const int n = std::accumulate(counts.begin(), counts.end(), 0); n > 0)
-      throw InvertedPoint(std::to_string(n) +
-                          (n == 1 ? " integration point is" : " integration points are") +
-                          " turned inside out (J <= 0).");
   }
 
   template <class Real, class Device>
@@ -91,24 +79,25 @@ namespace softcell
       run_cells(ResidualAction<Real, std::decay_t<decltype(law)>>{
         law, components<Real>(u.data(), n_entries_)});
     });
-    sum_up(r, 3);
-    throw_if_inverted();
+    run_nodes(StoreAction<Real, 3>{n_entries_, held_.data(), r.data()});
+    throw_if_inverted(n_inverted_);
   }
 
   template <class Real, class Device>
-  void CudaElasticity<Real, Device>::set_state(const Field &u)
+  void CudaElasticity<Real, Device>::set_state(const Field &u, const Stresses stresses)
   {
     u_.copy_from(u);
     material_.visit([&](const auto &double_law) {
       const auto law = rounded<Real>(double_law);
       run_cells(PressureAction<Real, std::decay_t<decltype(law)>>{
-        law, components<Real>(u_.data(), n_entries_), pressures_.data()});
+        law, components<Real>(u_.data(), n_entries_), stresses == Stresses::tensile,
+        pressures_.data()});
     });
-    throw_if_inverted();
+    throw_if_inverted(n_inverted_);
   }
 
   template <class Real, class Device>
-  void CudaElasticity<Real, Device>::vmult(Field &y, const Field &x)
+  void CudaElasticity<Real, Device>::run_tangents(const Field &x)
   {
     material_.visit([&](const auto &double_law) {
       const auto law = rounded<Real>(double_law);
@@ -116,7 +105,20 @@ namespace softcell
         law, components<Real>(u_.data(), n_entries_), components<Real>(x.data(), n_entries_),
         pressures_.data()});
     });
-    sum_up(y, 3);
+  }
+
+  template <class Real, class Device>
+  template <class Action>
+  void CudaElasticity<Real, Device>::vmult(const Field &x, const Action &at_nodes)
+  {
+    run_tangents(x);
+    run_nodes(at_nodes);
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::vmult(Field &y, const Field &x)
+  {
+    vmult(x, StoreAction<Real, 3>{n_entries_, held_.data(), y.data()});
   }
 
   template <class Real, class Device>
@@ -127,6 +129,6 @@ namespace softcell
       run_cells(DiagonalAction<Real, std::decay_t<decltype(law)>>{
         law, components<Real>(u_.data(), n_entries_), pressures_.data()});
     });
-    sum_up(blocks, 6);
+    run_nodes(StoreAction<Real, 6>{n_entries_, held_.data(), blocks.data()});
   }
 } // namespace softcell

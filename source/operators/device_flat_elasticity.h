@@ -3,13 +3,12 @@
 #pragma once
 
 #include "flat_kernels.h"
+#include "inverted_points.h"
 
 #include <softcell/base/device_launch.h>
-#include <softcell/base/exceptions.h>
 #include <softcell/operators/cuda_flat_elasticity.h>
 
 #include <cstring>
-#include <numeric>
 
 namespace softcell
 {
@@ -123,12 +122,7 @@ namespace softcell
   void CudaFlatElasticity<Real, Device>::set_state(const Field &u)
   {
     run_points<StateAction>(u.data());
-    std::vector<int> counts(n_inverted_.size());
-    n_inverted_.copy_to(counts.data());
-    if (const int n = std::accumulate(counts.begin(), counts.end(), 0); n > 0)
-      throw InvertedPoint(std::to_string(n) +
-                          (n == 1 ? " integration point is" : " integration points are") +
-                          " turned inside out (J <= 0).");
+    throw_if_inverted(n_inverted_);
   }
 
   template <class Real, class Device>

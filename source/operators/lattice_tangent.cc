@@ -3,30 +3,10 @@
 
 #include <softcell/operators/lattice_tangent.h>
 
-#include <algorithm>
+#include "diagonal_block.h"
 
 namespace softcell
 {
-  namespace
-  {
-    /// Inverts a symmetric block by its cofactors; the entries are those of LatticeBlocks.
-    void invert(double (&A)[6])
-    {
-      const double xx = A[1] * A[2] - A[3] * A[3], xy = A[4] * A[3] - A[5] * A[2],
-                   xz = A[5] * A[3] - A[4] * A[1], yy = A[0] * A[2] - A[4] * A[4],
-                   zz = A[0] * A[1] - A[5] * A[5], yz = A[4] * A[5] - A[0] * A[3];
-      const double determinant = A[0] * xx + A[5] * xy + A[4] * xz;
-      const double trace       = A[0] + A[1] + A[2];
-      const bool is_positive   = A[0] > 0 && zz > 0 && determinant > 1e-6 * zz * trace;
-      const double inverse[6]  = {xx, yy, zz, yz, xz, xy};
-      for (unsigned int k = 0; k < 6; ++k)
-        if (is_positive)
-          A[k] = inverse[k] / determinant;
-        else
-          A[k] = k < 3 && trace > 0 ? 1 / trace : 0;
-    }
-  } // namespace
-
   template <class Real>
   LatticeTangent<Real>::LatticeTangent(const CellLattice &cells,
                                        const Material &material,
@@ -77,18 +57,7 @@ namespace softcell
         for (unsigned int k = 0; k < 6; ++k)
           A[k] = stiffness_ * blocks.component(k)[node] +
                  (k < 3 ? mass_ * masses_.component(0)[node] : 0);
-        const double largest  = std::max({A[0], A[1], A[2]});
-        const bool is_free[3] = {unknowns_.is_free(node, 0), unknowns_.is_free(node, 1),
-                                 unknowns_.is_free(node, 2)};
-        const auto set        = [&](const bool held_as_well) {
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int b = a; b < dim; ++b)
-              if (!(is_free[a] && is_free[b]))
-                A[a == b ? a : 6 - a - b] = a == b && held_as_well ? largest : 0;
-        };
-        set(true);
-        invert(A);
-        set(false);
+        invert_free(A, [&](const int c) { return unknowns_.is_free(node, c); });
         for (unsigned int k = 0; k < 6; ++k)
           blocks.component(k)[node] = A[k];
       }

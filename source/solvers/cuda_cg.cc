@@ -7,4 +7,6 @@ namespace softcell
 {
   template class CudaCG<double, Serial>;
   template class CudaCG<float, Serial>;
+  template class InverseDiagonal<double, Serial>;
+  template class InverseDiagonal<float, Serial>;
 } // namespace softcell

@@ -7,4 +7,6 @@ namespace softcell
 {
   template class CudaCG<double, Cuda>;
   template class CudaCG<float, Cuda>;
+  template class InverseDiagonal<double, Cuda>;
+  template class InverseDiagonal<float, Cuda>;
 } // namespace softcell

@@ -4,31 +4,13 @@
 #include <softcell/solvers/geometric_multigrid.h>
 
 #include <softcell/base/exceptions.h>
+#include <softcell/solvers/grid_levels.h>
 #include <softcell/solvers/lanczos.h>
 
 #include <deal.II/lac/vector.h>
 
 namespace softcell
 {
-  namespace
-  {
-    /// Unknowns of the grid that is solved exactly, at most.
-    constexpr std::size_t n_coarsest = 400;
-
-    /// Of cells on coarse grids.
-    constexpr double smallest_jacobian = 0.05;
-
-    Material definite(const Material &material)
-    {
-      return material.visit([&](const auto &law) {
-        const bool is_linear = std::is_same_v<std::decay_t<decltype(law)>, LinearElastic<>>;
-        const double young   = law.mu * (3 * law.lambda + 2 * law.mu) / (law.lambda + law.mu);
-        return Material(is_linear ? "linear" : "Neo-Hookean", young,
-                        law.lambda / (2 * (law.lambda + law.mu)), material.density());
-      });
-    }
-  } // namespace
-
   template <class Real>
   struct GeometricMultigrid<Real>::Level
   {
@@ -92,15 +74,12 @@ namespace softcell
                                                const std::vector<std::size_t> &held,
                                                unsigned int degree)
   {
-    const Material law = definite(material);
-    levels_.push_back(std::make_unique<Level>(cells, law, LatticeUnknowns(cells, held), degree));
-    CellLattice coarse = cells;
-    while (levels_.back()->unknowns.free_entries().size() > n_coarsest)
+    const Material law = material.definite();
+    for (GridLevel &level : grid_levels(cells, held))
     {
-      coarse = coarse_cells(coarse);
+      levels_.push_back(
+        std::make_unique<Level>(level.cells, law, std::move(level.unknowns), degree));
       degree *= 2;
-      levels_.push_back(std::make_unique<Level>(
-        coarse, law, LatticeUnknowns(coarse, levels_.back()->unknowns), degree));
     }
     coarsest_entries_ = levels_.back()->unknowns.free_entries();
   }
@@ -132,9 +111,8 @@ namespace softcell
     {
       const Level &fine = *levels_[l - 1];
       Level &coarse     = *levels_[l];
-      LatticeVector<Real> coarse_state(coarse.unknowns.nodes());
-      coarse.unknowns.take(fine.unknowns, state, coarse_state);
-      coarse.unknowns.untangle(coarse.spacing, smallest_jacobian, coarse_state);
+      LatticeVector<Real> coarse_state =
+        coarse_displacement(fine.unknowns, state, coarse.unknowns, coarse.spacing);
       try
       {
         coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
@@ -164,11 +142,7 @@ namespace softcell
     constexpr Real margin           = 1.1; // for what is missing after as many
     const LatticeUnknowns &unknowns = level.unknowns;
     LatticeVector<Real> p(unknowns.nodes());
-    level.r             = p;
-    unsigned int random = 1; // something with a share in every eigenvector
-    for (const std::size_t entry : unknowns.free_entries())
-      level.r.entries()[entry] =
-        Real(random = 1664525 * random + 1013904223) / Real(4294967296.) - Real(0.5);
+    level.r = rough_field<Real>(unknowns);
 
     LanczosMatrix lanczos;
     double rz_before = 1;

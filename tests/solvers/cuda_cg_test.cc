@@ -74,8 +74,9 @@ namespace
     tangent.diagonal(blocks);
     b.copy_from(field.entries().data());
     CudaCG<Real, Device> cg(size);
-    cg.set_diagonal(blocks);
-    cg.solve([&](auto &y, const auto &p) { tangent.vmult(y, p); }, x, b, tolerance, 500);
+    const InverseDiagonal<Real, Device> inverse(blocks, size);
+    cg.solve([&](auto &y, const auto &p) { tangent.vmult(y, p); },
+             [&](auto &z, const auto &r) { inverse.vmult(z, r); }, x, b, tolerance, 500);
     history = cg.history();
     x.copy_to(field.entries().data());
     Vector result = ball.cells->make_vector();
@@ -123,9 +124,8 @@ namespace
     unsigned int solve(const std::vector<double> &b, std::vector<double> &x) const
     {
       const std::size_t n = entries.size();
-      DeviceArray<double, Device> device_b(b), device_x(n), ones(std::vector<double>(n, 1.));
+      DeviceArray<double, Device> device_b(b), device_x(n);
       CudaCG<double, Device> cg(n);
-      cg.set_diagonal(ones);
       const unsigned int iterations = cg.solve(
         [&](auto &y, const auto &p) {
           std::vector<double> values = on_host(p);
@@ -133,7 +133,7 @@ namespace
             values[i] *= entries[i];
           y.copy_from(values.data());
         },
-        device_x, device_b, 1e-12, 5);
+        [](auto &z, const auto &r) { z.copy_from(r); }, device_x, device_b, 1e-12, 5);
       x.resize(n);
       device_x.copy_to(x.data());
       return iterations;

@@ -38,6 +38,10 @@ namespace softcell
     /// Neo-Hookean.
     Material invertible() const;
 
+    /// Neo-Hookean in place of Saint-Venant-Kirchhoff, with the same tangent at rest: a law whose
+    /// tangents can be made positive, see Stresses.
+    Material definite() const;
+
     /// lambda + 2 mu, the stiffness against strain along one axis alone. Units: Pa
     double longitudinal_modulus() const
     {

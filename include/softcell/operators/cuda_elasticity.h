@@ -5,6 +5,7 @@
 #include <softcell/base/device.h>
 #include <softcell/mechanics/material.h>
 #include <softcell/operators/cell_bricks.h>
+#include <softcell/operators/stresses.h>
 
 namespace softcell
 {
@@ -38,10 +39,15 @@ namespace softcell
 
     /// Takes the displacement at which the tangent is formed. Call it before the functions below.
     /// @throws InvertedPoint
-    void set_state(const Field &u);
+    void set_state(const Field &u, Stresses stresses = Stresses::all);
 
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(Field &y, const Field &x);
+
+    /// The same, but an action gets what y would be in held unknowns too, see NodeKernel; for
+    /// sources that define kernels.
+    template <class Action>
+    void vmult(const Field &x, const Action &at_nodes);
 
     /// The diagonal blocks of the tangent, those of LatticeBlocks. Units: N/m
     void diagonal(Field &blocks);
@@ -49,8 +55,9 @@ namespace softcell
   private:
     template <class Action>
     void run_cells(const Action &action);
-    void sum_up(Field &y, int n_components);
-    void throw_if_inverted() const;
+    void run_tangents(const Field &x);
+    template <class Action>
+    void run_nodes(const Action &action);
 
     Material material_;
     std::size_t n_entries_, row_, plane_;

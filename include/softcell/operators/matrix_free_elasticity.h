@@ -3,20 +3,11 @@
 #pragma once
 
 #include <softcell/mechanics/material.h>
+#include <softcell/operators/stresses.h>
 #include <softcell/operators/uniform_cells.h>
 
 namespace softcell
 {
-  /// Which stresses a tangent knows.
-  enum class Stresses
-  {
-    all,
-    /// Of Neo-Hookean, the factor mu - lambda ln J is kept between -mu s^2 and mu s^2, with s the
-    /// smallest stretch: in tension it is there by itself, and elsewhere this leaves out the
-    /// compressive stress. So the tangent is positive semi-definite at every point.
-    tensile
-  };
-
   /// What Elasticity does, on the cells of a uniform grid, by SIMD packs of cells and threads.
   ///
   /// Nodes without cells get 0. Imposed displacements are the caller's: he sets what belongs to

@@ -3,55 +3,88 @@
 #pragma once
 
 #include <softcell/base/device.h>
+#include <softcell/solvers/lanczos.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace softcell
 {
-  /// Conjugate gradients with the inverted diagonal as preconditioner on a device: Cuda, or Serial,
-  /// which runs the same kernels on the host.
+  /// Preconditioned conjugate gradients on a device: Cuda, or Serial, which runs the same kernels
+  /// on the host.
   ///
-  /// Vectors and step lengths stay on the device. The host gets two scalars in each iteration, p.Ap
-  /// and r.r, and decides by them whether to go on. Products of vectors are sums of double
-  /// precision in a fixed order: those of 256 blocks, then one block over these. So results are
-  /// always the same. Source: Magnoux algorithm 2.
+  /// Vectors and step lengths stay on the device. The host gets three scalars in each iteration,
+  /// p.Ap, r.r and r.z, and decides by the first two whether to go on. Products of vectors are sums
+  /// of double precision in a fixed order: those of 256 blocks, then one block over these. So
+  /// results are always the same. Source: Magnoux algorithm 2.
   template <class Real, class Device>
   class CudaCG
   {
   public:
     using Field = DeviceArray<Real, Device>;
     /// y = A x
-    using Product = std::function<void(Field &y, const Field &x)>;
+    using Operator = std::function<void(Field &y, const Field &x)>;
 
     explicit CudaCG(std::size_t size);
 
-    /// @param diagonal  of A, (size) or longer; 0 in unknowns that are not free, which stay 0.
-    void set_diagonal(const Field &diagonal);
-
     /// Solves A x = b from x = 0 and returns the iterations. At negative curvature it stops with
     /// the x so far, as LinearSolver does.
-    /// @param tolerance  of |b - A x| / |b|, in the unknowns that are free.
+    /// @param M  near to the inverse of A.
+    /// @param b  0 in unknowns that are not free, as all that A and M give.
+    /// @param tolerance  of |b - A x| / |b|.
     /// @throws NotConverged, also where a number is no longer finite
-    unsigned int solve(const Product &A,
+    unsigned int solve(const Operator &A,
+                       const Operator &M,
                        Field &x,
                        const Field &b,
                        double tolerance,
                        unsigned int max_iterations);
 
-    /// |b - A x| / |b| after each iteration of the last solve().
+    /// The same, but returns nothing where the iterations do not suffice.
+    std::optional<unsigned int> iterate(const Operator &A,
+                                        const Operator &M,
+                                        Field &x,
+                                        const Field &b,
+                                        double tolerance,
+                                        unsigned int max_iterations);
+
+    /// |b - A x| / |b| after each iteration.
     const std::vector<double> &history() const
     {
       return history_;
+    }
+    /// Of M A, nearly; NaN after negative curvature.
+    double largest_eigenvalue() const
+    {
+      return lanczos_.extreme_eigenvalues().second;
     }
 
   private:
     template <class Terms>
     void sum_up(const Terms &terms, double *sums);
 
-    Field inverse_, r_, p_, Ap_;
-    DeviceArray<double, Device> block_sums_; // (2, blocks)
+    Field r_, p_, z_;                        // the last one for A p as well
+    DeviceArray<double, Device> block_sums_; // (blocks)
     DeviceArray<double, Device> scalars_;    // (2, 3) p.Ap, r.r, r.z of even and odd iterations
+    LanczosMatrix lanczos_;
     std::vector<double> history_;
+  };
+
+  /// The inverse of a matrix' diagonal, the simplest preconditioner.
+  template <class Real, class Device>
+  class InverseDiagonal
+  {
+  public:
+    using Field = DeviceArray<Real, Device>;
+
+    /// @param diagonal  (size) or longer; 0 in unknowns that are not free, and there the inverse is
+    /// 0.
+    InverseDiagonal(const Field &diagonal, std::size_t size);
+
+    void vmult(Field &y, const Field &x) const;
+
+  private:
+    Field inverse_;
   };
 } // namespace softcell

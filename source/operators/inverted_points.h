@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Points that are turned inside out on a device.
+#pragma once
+
+#include <softcell/base/device.h>
+#include <softcell/base/exceptions.h>
+
+#include <numeric>
+#include <string>
+
+namespace softcell
+{
+  /// @throws InvertedPoint unless all counts are 0.
+  template <class Device>
+  void throw_if_inverted(const DeviceArray<int, Device> &counts)
+  {
+    std::vector<int> numbers(counts.size());
+    counts.copy_to(numbers.data());
+    if (const int n = std::accumulate(numbers.begin(), numbers.end(), 0); n > 0)
+      throw InvertedPoint(std::to_string(n) +
+                          (n == 1 ? " integration point is" : " integration points are") +
+                          " turned inside out (J <= 0).");
+  }
+} // namespace softcell

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The multigrid of the graphics card, on the host and where there is a card, against the host's.
+
+#include <softcell/solvers/cuda_multigrid.h>
+#include <softcell/solvers/geometric_multigrid.h>
+#include <softcell/solvers/matrix_free_solver.h>
+
+#include "../devices.h"
+#include "held_body.h"
+
+namespace
+{
+  using namespace softcell;
+
+  template <class Device>
+  class CudaMultigridTest : public DeviceTest<Device>
+  {
+  };
+  TYPED_TEST_SUITE(CudaMultigridTest, Devices, DeviceNames);
+
+  template <class Real, class Device>
+  void expect_cycles_agree(const HeldBody &body,
+                           const Material &material,
+                           const Vector &u,
+                           const double bound)
+  {
+    GeometricMultigrid<Real> host(*body.cells, material, body.held);
+    CudaMultigrid<Real, Device> device(*body.cells, material, body.held);
+    LatticeVector<Real> state(body.cells->nodes), y(body.cells->nodes);
+    copy(u, body.cells->entries, state);
+    const auto x = random_field<Real>(host.unknowns(), 3);
+    DeviceArray<Real, Device> device_x(x.entries().size()), device_y(device_x.size());
+    device_x.copy_from(state.entries().data());
+    host.set_state(state);
+    device.set_state(device_x);
+    device_x.copy_from(x.entries().data());
+    host.vmult(y, x);
+    device.vmult(device_y, device_x);
+    EXPECT_LT((difference<Real, Device>(device_y, y.entries())), bound);
+  }
+
+  // Compressed, the tangent itself would be indefinite.
+  TYPED_TEST(CudaMultigridTest, IsTheOneOfTheHost)
+  {
+    for (const std::string type : {"cylinder", "sphere"})
+      for (const double stretch : {0., -0.2})
+      {
+        SCOPED_TRACE(type + ' ' + std::to_string(stretch));
+        const HeldBody body(type, type == "sphere" ? 40 : 19);
+        const Vector u = body.bent(0.02, stretch);
+        const Material material("Neo-Hookean", 5000, 0.4);
+        expect_cycles_agree<double, TypeParam>(body, material, u, 1e-10);
+        expect_cycles_agree<float, TypeParam>(body, material, u, 1e-5);
+      }
+    const HeldBody body("cylinder", 19);
+    for (const std::string law : {"Saint-Venant-Kirchhoff", "linear"})
+      expect_cycles_agree<double, TypeParam>(body, Material(law, 5000, 0.3), body.bent(0.02, 0),
+                                             1e-10);
+  }
+
+  // Both are conjugate gradients in double precision with a V-cycle in single precision, whose
+  // rounding errors the tangent multiplies by up to its condition number, some 1e4.
+  TYPED_TEST(CudaMultigridTest, LeavesTheIterationsOfTheHost)
+  {
+    const HeldBody body("cylinder", 36);
+    const Material material("Neo-Hookean", 5000, 0.3);
+    LinearSolverParameters parameters;
+    parameters.tolerance      = 1e-8;
+    parameters.max_iterations = 50;
+    MatrixFreeSolver host(*body.discretization, material, body.constrained, parameters);
+    const Vector u = body.bent(0.02, 0);
+    Vector b       = body.discretization->make_vector(), expected(b);
+    for (unsigned int node = 0; node < body.discretization->n_owned_nodes(); ++node)
+      b.local_element(3 * node) = 1;
+    for (const unsigned int unknown : body.constrained)
+      b.local_element(unknown) = 0;
+    host.set_state(u);
+    host.set_matrix(BlockMatrix(body.discretization->partitioner(), {}), {}, {});
+    host.solve(expected, b);
+
+    LatticeVector<double> field(body.cells->nodes);
+    const std::size_t size = field.entries().size();
+    DeviceArray<double, TypeParam> device_u(size), device_b(size), device_x(size);
+    copy(u, body.cells->entries, field);
+    device_u.copy_from(field.entries().data());
+    copy(b, body.cells->entries, field);
+    device_b.copy_from(field.entries().data());
+    CudaMultigrid<float, TypeParam> multigrid(*body.cells, material, body.held);
+    multigrid.set_state(device_u);
+    CudaElasticity<double, TypeParam> tangent(CellBricks<double>(*body.cells), material);
+    tangent.hold(multigrid.held());
+    tangent.set_state(device_u);
+    CudaCG<double, TypeParam> cg(size);
+    cg.solve([&](auto &y, const auto &x) { tangent.vmult(y, x); },
+             [&](auto &z, const auto &r) { multigrid.vmult(z, r); }, device_x, device_b,
+             parameters.tolerance, parameters.max_iterations);
+
+    ASSERT_EQ(cg.history().size(), host.history().size());
+    for (unsigned int i = 0; i < cg.history().size(); ++i)
+      EXPECT_NEAR(cg.history()[i], host.history()[i], 1e-2 * host.history()[i]);
+    copy(expected, body.cells->entries, field);
+    EXPECT_LT((difference<double, TypeParam>(device_x, field.entries())), 1e-7);
+  }
+} // namespace
