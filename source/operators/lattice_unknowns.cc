@@ -148,8 +148,8 @@ namespace softcell
     return entries;
   }
 
-  template <class Real>
-  double LatticeUnknowns::dot(const LatticeVector<Real> &x, const LatticeVector<Real> &y) const
+  template <class F>
+  double LatticeUnknowns::sum(const F &term) const
   {
     std::vector<double> sums(runs_.size());
 #pragma omp parallel for schedule(static)
@@ -158,14 +158,36 @@ namespace softcell
       double sum = 0;
       for (unsigned int c = 0; c < dim; ++c)
       {
-        const Real *const a = x.component(c), *const b = y.component(c);
 #pragma omp simd reduction(+ : sum)
         for (std::size_t node = runs_[r].first; node < runs_[r].second; ++node)
-          sum += double(a[node]) * b[node];
+          sum += term(c, node);
       }
       sums[r] = sum;
     }
     return std::accumulate(sums.begin(), sums.end(), 0.);
+  }
+
+  template <class Real>
+  double LatticeUnknowns::dot(const LatticeVector<Real> &x, const LatticeVector<Real> &y) const
+  {
+    const Real *const a[3] = {x.component(0), x.component(1), x.component(2)}, *const b[3] = {
+                                                                                 y.component(0),
+                                                                                 y.component(1),
+                                                                                 y.component(2)};
+    return sum(
+      [&](const unsigned int c, const std::size_t i) { return double(a[c][i]) * b[c][i]; });
+  }
+
+  template <class Real>
+  double LatticeUnknowns::dot(const LatticeVector<Real> &x,
+                              const LatticeVector<Real> &y,
+                              const LatticeField<Real, 1> &weights) const
+  {
+    const Real *const a[3]        = {x.component(0), x.component(1), x.component(2)},
+                      *const b[3] = {y.component(0), y.component(1), y.component(2)},
+                      *const m    = weights.component(0);
+    return sum(
+      [&](const unsigned int c, const std::size_t i) { return double(m[i]) * a[c][i] * b[c][i]; });
   }
 
   template <class Real>
@@ -338,6 +360,12 @@ namespace softcell
                                        const LatticeVector<double> &) const;
   template double LatticeUnknowns::dot(const LatticeVector<float> &,
                                        const LatticeVector<float> &) const;
+  template double LatticeUnknowns::dot(const LatticeVector<double> &,
+                                       const LatticeVector<double> &,
+                                       const LatticeField<double, 1> &) const;
+  template double LatticeUnknowns::dot(const LatticeVector<float> &,
+                                       const LatticeVector<float> &,
+                                       const LatticeField<float, 1> &) const;
   template void LatticeUnknowns::interpolate(const LatticeVector<double> &,
                                              LatticeVector<double> &) const;
   template void LatticeUnknowns::interpolate(const LatticeVector<float> &,

@@ -59,11 +59,13 @@ namespace softcell
       });
     }
 
-    /// x += d, r -= K d
-    void step()
+    /// x += d, and r -= K d unless r is no longer needed.
+    void step(const bool is_last = false)
     {
-      tangent.vmult(Kd, d);
       unknowns.for_each(x, d, [](Real &x_i, const Real d_i) { x_i += d_i; });
+      if (is_last)
+        return;
+      tangent.vmult(Kd, d);
       unknowns.for_each(r, Kd, [](Real &r_i, const Real Kd_i) { r_i -= Kd_i; });
     }
   };
@@ -182,15 +184,16 @@ namespace softcell
   }
 
   /// Adds to x what lessens r = b - K x.
+  /// @param is_last  leaves r as it was before the last step.
   template <class Real>
-  void GeometricMultigrid<Real>::smooth(Level &level) const
+  void GeometricMultigrid<Real>::smooth(Level &level, const bool is_last) const
   {
     const Real scale = 1 / level.largest_eigenvalue;
     for (unsigned int k = 0; k < level.degree; ++k)
     {
       level.precondition(k == 0 ? 0 : Real(2 * k - 1.) / (2 * k + 3),
                          scale * (8 * k + 4) / (2 * k + 3));
-      level.step();
+      level.step(is_last && k + 1 == level.degree);
     }
   }
 
@@ -211,23 +214,24 @@ namespace softcell
       return;
     }
     Level &coarse = *levels_[l + 1];
-    smooth(level);
+    smooth(level, false);
     coarse.unknowns.sum_up(level.r, coarse.r);
     std::fill(coarse.x.entries().begin(), coarse.x.entries().end(), Real(0));
     cycle(l + 1);
     level.unknowns.interpolate(coarse.x, level.d);
     level.step();
-    smooth(level);
+    smooth(level, true);
   }
 
   template <class Real>
   void GeometricMultigrid<Real>::vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const
   {
     Level &level = *levels_[0];
-    level.r      = x;
+    level.unknowns.for_each(level.r, x, [](Real &r_i, const Real x_i) { r_i = x_i; });
+    level.unknowns.hold(level.r);
     std::fill(level.x.entries().begin(), level.x.entries().end(), Real(0));
     cycle(0);
-    y = level.x;
+    level.unknowns.for_each(y, level.x, [](Real &y_i, const Real x_i) { y_i = x_i; });
   }
 
   template <class Real>

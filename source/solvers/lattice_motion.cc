@@ -27,25 +27,26 @@ namespace softcell
         z_(cells.nodes),
         p_(cells.nodes),
         Ap_(cells.nodes),
-        velocities_(n_velocities, u_),
-        starts_(n_velocities, u_),
-        A_starts_(n_velocities, u_),
+        way_(cells.nodes),
+        w_before_(cells.nodes),
+        starts_(2, u_),
+        A_starts_(2, u_),
         multigrid_(cells, material.invertible(), held, 1)
   {
-    tangent_.supports() = std::move(supports);
+    constexpr double light = 0.01;
+    tangent_.supports()    = std::move(supports);
+    const Real *const m    = tangent_.masses().component(0);
+    const std::size_t n    = cells.nodes.size();
+    const double most      = *std::max_element(m, m + n);
+    for (std::size_t entry = 0; entry < 3 * n; ++entry)
+      if (const Real mass = m[entry % n]; mass > 0 && mass < light * most)
+        light_.push_back(entry);
   }
 
   template <class Real>
   double LatticeMotion<Real>::kinetic_energy() const
   {
-    double sum = 0;
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      const Real *const v = v_.component(c), *const m = tangent_.masses().component(0);
-      for (std::size_t i = 0; i < v_.lattice().size(); ++i)
-        sum += 0.5 * m[i] * v[i] * v[i];
-    }
-    return sum;
+    return 0.5 * unknowns_.dot(v_, v_, tangent_.masses());
   }
 
   template <class Real>
@@ -70,12 +71,13 @@ namespace softcell
     };
     for (const std::size_t entry : held_) // as fast as they have to be
       v_.entries()[entry] = (imposed.entries()[entry] - u_.entries()[entry]) / Real(dt);
-    const LatticeVector<Real> start = u_;
-    const double before             = kinetic_energy() + strain();
+    const double before = kinetic_energy() + strain();
+    way_                = u_;
     softcell::advance(motion, parameters_.scheme, 0, dt, u_, v_);
+    unknowns_.for_each(way_, u_, [](Real &way_i, const Real u_i) { way_i = u_i - way_i; });
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
-    shorten(start, before + work(start, external), dt);
+    shorten(before + work(external), dt);
     return step_;
   }
 
@@ -88,28 +90,22 @@ namespace softcell
     return strain_;
   }
 
-  /// What supports, loads and held entries did on the way from `start`. Units: J
+  /// What supports, loads and held entries did on the way. Units: J
   template <class Real>
-  double LatticeMotion<Real>::work(const LatticeVector<Real> &start,
-                                   const LatticeVector<Real> &external)
+  double LatticeMotion<Real>::work(const LatticeVector<Real> &external)
   {
-    Ap_ = external;
-    p_  = LatticeVector<Real>(u_.lattice());
-    tangent_.supports().add_product(p_, u_);
-    add(Ap_, -1, p_);
+    std::fill(z_.entries().begin(), z_.entries().end(), Real(0));
+    tangent_.supports().add_product(z_, u_);
+    double sum = unknowns_.dot(external, way_) - unknowns_.dot(z_, way_);
     for (const std::size_t entry : held_)
-      Ap_.entries()[entry] += reaction_.entries()[entry];
-    p_ = u_;
-    add(p_, -1, start);
-    return unknowns_.dot(Ap_, p_);
+      sum += double(reaction_.entries()[entry]) * way_.entries()[entry];
+    return sum;
   }
 
-  /// Halves the way from `start` until there is no more energy than was put in. The energy of a
-  /// law that stiffens may rise above that of its linearisation.
+  /// Halves the way, also that of held entries, until there is no more energy than was put in. The
+  /// energy of a law that stiffens may rise above that of its linearisation.
   template <class Real>
-  void LatticeMotion<Real>::shorten(const LatticeVector<Real> &start,
-                                    const double available,
-                                    const double dt)
+  void LatticeMotion<Real>::shorten(const double available, const double dt)
   {
     constexpr unsigned int most = 5;
     constexpr double margin     = 0.05;
@@ -118,14 +114,9 @@ namespace softcell
       has_strain_ = false;
       if ((1 - margin) * (strain() + kinetic_energy()) <= available)
         return;
-      z_ = u_;
-      add(z_, -1, start);
-      unknowns_.hold(z_);
-      add(u_, Real(-0.5), z_);
-      for (unsigned int c = 0; c < dim; ++c)
-        for (std::size_t i = 0; i < u_.lattice().size(); ++i)
-          if (unknowns_.is_free(i, c))
-            v_.component(c)[i] = z_.component(c)[i] / Real(2 * dt);
+      unknowns_.for_each(way_, way_, [](Real &way_i, Real) { way_i *= Real(0.5); });
+      add(u_, -1, way_);
+      unknowns_.for_each(v_, way_, [dt](Real &v_i, const Real way_i) { v_i = way_i / Real(dt); });
     }
     has_strain_ = false;
   }
@@ -145,14 +136,16 @@ namespace softcell
     linearise();
     tangent_.elasticity().residual(u_, r_);
     tangent_.supports().add_product(r_, u_);
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      const Real *const m = tangent_.masses().component(0), *const v = v_.component(c),
-                        *const r = r_.component(c), *const f = external.component(c);
-      Real *const b_c = b.component(c);
-      for (std::size_t i = 0; i < b.lattice().size(); ++i)
-        b_c[i] = m[i] * v[i] + Real(h) * (f[i] - r[i]);
-    }
+    unknowns_.for_each_run([&](const std::size_t begin, const std::size_t end) {
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        const Real *const m = tangent_.masses().component(0), *const v = v_.component(c),
+                          *const r = r_.component(c), *const f = external.component(c);
+        Real *const b_c = b.component(c);
+        for (std::size_t i = begin; i < end; ++i)
+          b_c[i] = m[i] * v[i] + Real(h) * (f[i] - r[i]);
+      }
+    });
   }
 
   /// Takes stiffness K + mass M as the matrix A, and multigrid for it: at rest, or at the
@@ -187,45 +180,53 @@ namespace softcell
     unknowns_.for_each(y, x, [a](Real &y_i, const Real x_i) { y_i += a * x_i; });
   }
 
-  /// Makes the last velocities, w before all, A-orthonormal.
+  /// Takes a direction's part that is A-orthogonal to the starts as one more of them.
+  template <class Real>
+  void LatticeMotion<Real>::add_start(const LatticeVector<Real> &direction)
+  {
+    LatticeVector<Real> &d = starts_[n_starts_], &Ad = A_starts_[n_starts_];
+    d                 = direction;
+    double taken_away = 0;
+    for (unsigned int k = 0; k < n_starts_; ++k)
+    {
+      const double share = unknowns_.dot(A_starts_[k], direction);
+      add(d, -Real(share), starts_[k]);
+      taken_away += share * share;
+    }
+    tangent_.product(Ad, d); // also in held entries
+    const double left  = unknowns_.dot(d, Ad);
+    const double noise = 10 * std::sqrt(std::numeric_limits<Real>::epsilon());
+    if (!(left > noise * taken_away && left > 0))
+      return;
+    const Real scale = 1 / std::sqrt(left);
+    for (LatticeVector<Real> *const x : {&d, &Ad})
+      unknowns_.for_each(*x, *x, [scale](Real &x_i, const Real) { x_i *= scale; });
+    ++n_starts_;
+  }
+
+  /// The last velocity w, and its change since the step before. Light nodes have no share in this:
+  /// what is wrong there weighs so little that few iterations leave it, and extrapolated it would
+  /// grow from step to step.
   template <class Real>
   void LatticeMotion<Real>::prepare_starts(const LatticeVector<Real> &w)
   {
-    std::rotate(velocities_.begin(), velocities_.end() - 1, velocities_.end());
-    velocities_[0] = w;
-    unknowns_.hold(velocities_[0]);
     n_starts_ = 0;
-    for (const LatticeVector<Real> &velocity : velocities_)
-    {
-      LatticeVector<Real> &d = starts_[n_starts_], &Ad = A_starts_[n_starts_];
-      d                 = velocity;
-      double taken_away = 0;
-      for (unsigned int k = 0; k < n_starts_; ++k)
-      {
-        const double share = unknowns_.dot(A_starts_[k], velocity);
-        add(d, -Real(share), starts_[k]);
-        taken_away += share * share;
-      }
-      tangent_.product(Ad, d); // also in held entries
-      const double left  = unknowns_.dot(d, Ad);
-      const double noise = 10 * std::sqrt(std::numeric_limits<Real>::epsilon());
-      if (!(left > noise * taken_away && left > 0))
-        continue;
-      const Real scale = 1 / std::sqrt(left);
-      for (LatticeVector<Real> *const x : {&d, &Ad})
-        unknowns_.for_each(*x, *x, [scale](Real &x_i, const Real) { x_i *= scale; });
-      ++n_starts_;
-    }
+    p_        = w;
+    unknowns_.hold(p_);
+    unknowns_.for_each(w_before_, p_, [](Real &w_i, const Real p_i) { w_i = p_i - w_i; });
+    for (const std::size_t entry : light_)
+      w_before_.entries()[entry] = 0;
+    add_start(p_);
+    add_start(w_before_);
+    w_before_ = p_;
   }
 
   /// z = nearly A^-1 r, and their product.
   template <class Real>
   double LatticeMotion<Real>::precondition()
   {
-    Ap_ = r_;
-    unknowns_.hold(Ap_);
-    multigrid_.vmult(z_, Ap_);
-    return unknowns_.dot(z_, Ap_);
+    multigrid_.vmult(z_, r_);
+    return unknowns_.dot(z_, r_);
   }
 
   /// Solves A w = r from w on and leaves in r what is missing, also in held entries.
@@ -233,7 +234,7 @@ namespace softcell
   void LatticeMotion<Real>::solve(const Effort &effort, LatticeVector<Real> &w)
   {
     prepare_starts(w);
-    add(w, -1, velocities_[0]); // now what is imposed
+    add(w, -1, w_before_); // now what is imposed
     if (std::any_of(held_.begin(), held_.end(),
                     [&](const std::size_t entry) { return w.entries()[entry] != 0; }))
     {

@@ -43,13 +43,22 @@ namespace softcell
     }
   }
 
-  inline std::vector<std::size_t> entries_below(const CellLattice &cells, const double z)
+  template <class IsInside>
+  std::vector<std::size_t> entries_where(const CellLattice &cells, const IsInside &is_inside)
   {
     std::vector<std::size_t> entries;
     for (const std::size_t node : cells.entries)
-      for (unsigned int c = 0; c < dim && position(cells, node)[2] < z; ++c)
+      for (unsigned int c = 0; c < dim && is_inside(position(cells, node)); ++c)
         entries.push_back(c * cells.nodes.size() + node);
     return entries;
+  }
+  inline std::vector<std::size_t> entries_below(const CellLattice &cells, const double z)
+  {
+    return entries_where(cells, [z](const Point &X) { return X[2] < z; });
+  }
+  inline std::vector<std::size_t> entries_above(const CellLattice &cells, const double z)
+  {
+    return entries_where(cells, [z](const Point &X) { return X[2] > z; });
   }
 
   inline LatticeVector<double> weight(const CellLattice &cells, const LatticeMotion<double> &motion)

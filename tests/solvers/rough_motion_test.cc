@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -40,15 +41,115 @@ namespace
     }
   }
 
+  /// A cylinder that stands on its base, and the entries of its top.
+  struct Grasped
+  {
+    CellLattice cells                 = cells_of("cylinder", Point(), 5);
+    std::vector<std::size_t> tool     = entries_above(cells, 0.19),
+                             all_held = entries_below(cells, 0.01);
+
+    Grasped()
+    {
+      all_held.insert(all_held.end(), tool.begin(), tool.end());
+    }
+
+    template <class Real>
+    LatticeMotion<Real> motion() const
+    {
+      return {cells, Material("Neo-Hookean", 5000, 0.45, 1000), all_held, {}, {}};
+    }
+
+    template <class Real>
+    LatticeVector<Real> imposed(const Direction &at) const
+    {
+      LatticeVector<Real> u(cells.nodes);
+      for (const std::size_t entry : tool)
+        u.entries()[entry] = at[entry / cells.nodes.size()];
+      return u;
+    }
+  };
+
+  // Four iterations a step keep to the way of converged steps for 2 s.
+  TEST(RoughMotion, FewIterationsFollowTheConvergedMotion)
+  {
+    const Grasped body;
+    auto motion = body.motion<float>();
+    auto exact  = body.motion<double>();
+    const LatticeVector<float> nothing(body.cells.nodes);
+    const LatticeVector<double> exactly_nothing(body.cells.nodes);
+    for (unsigned int frame = 1; frame <= 120; ++frame)
+    {
+      const Direction at(
+        Point(0.02 * (1 - std::cos(0.2 * frame)), 0, 0.01 * std::sin(0.3 * frame)));
+      motion.advance(1. / 60, nothing, body.imposed<float>(at), {1e-6, 4});
+      exact.advance(1. / 60, exactly_nothing, body.imposed<double>(at), {1e-9, 1000});
+    }
+    for (const std::size_t node : body.cells.entries)
+      for (unsigned int c = 0; c < dim; ++c)
+        ASSERT_NEAR(std::as_const(motion).displacement().component(c)[node],
+                    std::as_const(exact).displacement().component(c)[node], 0.01 * 0.04)
+          << node;
+  }
+
+  // Before its first iteration a step is a combination of the last velocity and its change, of
+  // which light nodes know the former alone.
+  TEST(RoughMotion, LightNodesAreNotExtrapolated)
+  {
+    const CellLattice cells = cells_of("sphere", Point(), 6);
+    LatticeMotion<double> motion(cells, soft_tissue, {}, {}, {});
+    const LatticeVector<double> nothing(cells.nodes);
+    const auto step_from = [&](const double frequency) {
+      fill(cells, motion.velocity(), [&](const Point &X) {
+        return Direction(Point(std::sin(frequency * X[1]), std::cos(frequency * X[2]), 1));
+      });
+      const LatticeVector<double> v = motion.velocity();
+      motion.advance(1e-3, nothing, nothing, {1e-6, 0});
+      return v;
+    };
+    step_from(20);
+    const LatticeVector<double> v = step_from(60);
+    const double *const m         = motion.tangent().masses().component(0);
+    const double most             = *std::max_element(m, m + cells.nodes.size());
+    std::vector<double> light, heavy; // ratios
+    for (const std::size_t node : cells.entries)
+      (m[node] < 0.01 * most ? light : heavy)
+        .push_back(motion.velocity().component(0)[node] / v.component(0)[node]);
+    ASSERT_GT(light.size(), 4);
+    const auto spread = [](const std::vector<double> &ratios) {
+      const auto [least, largest] = std::minmax_element(ratios.begin(), ratios.end());
+      return *largest - *least;
+    };
+    EXPECT_LT(spread(light), 1e-10);
+    EXPECT_GT(spread(heavy), 1e-3);
+  }
+
+  // A leap that would put in more energy than its step foresees is followed late, as a whole.
+  TEST(RoughMotion, WhatALeapImposesComesLate)
+  {
+    const Grasped body;
+    auto motion = body.motion<float>();
+    const LatticeVector<float> nothing(body.cells.nodes);
+    const Direction there(Point(0.05, 0, 0.03));
+    const std::size_t entry = body.tool.front();
+    const auto &u           = std::as_const(motion).displacement();
+    motion.advance(1. / 60, nothing, body.imposed<float>(there), {1e-6, 4});
+    const double before = u.entries()[entry];
+    motion.advance(1. / 60, nothing, body.imposed<float>(-there), {1e-6, 4});
+    const double halvings = -std::log2((u.entries()[entry] - before) / (-there[0] - before));
+    EXPECT_GE(halvings, 0.999);
+    EXPECT_NEAR(halvings, std::round(halvings), 1e-5);
+    for (unsigned int frame = 0; frame < 120; ++frame)
+      motion.advance(1. / 60, nothing, body.imposed<float>(-there), {1e-6, 4});
+    EXPECT_NEAR(u.entries()[entry], -there[0], 1e-6);
+    EXPECT_GT(motion.tangent().elasticity().min_jacobian(u), 0.2);
+  }
+
   // A tool that leaps by half the body's length from frame to frame, for two iterations each.
   TEST(RoughMotion, RoughHandlingIsNoBlowUp)
   {
-    const CellLattice cells       = cells_of("cylinder", Point(), 4);
-    const auto base               = entries_below(cells, 0.01);
-    std::vector<std::size_t> held = base, tool;
-    for (const std::size_t node : cells.entries)
-      for (unsigned int c = 0; c < dim && position(cells, node)[2] > 0.19; ++c)
-        tool.push_back(c * cells.nodes.size() + node);
+    const CellLattice cells             = cells_of("cylinder", Point(), 4);
+    const std::vector<std::size_t> tool = entries_above(cells, 0.19);
+    std::vector<std::size_t> held       = entries_below(cells, 0.01);
     held.insert(held.end(), tool.begin(), tool.end());
     MotionParameters parameters;
     parameters.mass_damping = 2;

@@ -75,6 +75,12 @@ namespace softcell
     template <class Real>
     double dot(const LatticeVector<Real> &x, const LatticeVector<Real> &y) const;
 
+    /// The sum of m x y, with m of each node.
+    template <class Real>
+    double dot(const LatticeVector<Real> &x,
+               const LatticeVector<Real> &y,
+               const LatticeField<Real, 1> &m) const;
+
     /// Sets to 0 what is not free but in the runs.
     template <class Real>
     void hold(LatticeVector<Real> &x) const
@@ -106,6 +112,8 @@ namespace softcell
     void untangle(const Direction &spacing, double smallest, LatticeVector<Real> &u) const;
 
   private:
+    template <class F>
+    double sum(const F &term) const;
     template <class Real>
     bool is_tangled(const std::size_t (&corners)[8],
                     const Direction &spacing,

@@ -45,7 +45,8 @@ namespace softcell
     /// @throws InvertedPoint
     void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});
 
-    /// y = K^-1 x, nearly, for an x that is 0 in unknowns that are not free.
+    /// y = K^-1 x, nearly, where x is taken as 0 in unknowns that are not free. Nodes without cells
+    /// keep their y.
     void vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const;
 
     const LatticeUnknowns &unknowns() const;
@@ -58,7 +59,7 @@ namespace softcell
 
     void estimate_eigenvalue(Level &level) const;
     void invert_coarsest();
-    void smooth(Level &level) const;
+    void smooth(Level &level, bool is_last) const;
     void cycle(unsigned int level) const;
 
     std::vector<std::unique_ptr<Level>> levels_; // from the finest on

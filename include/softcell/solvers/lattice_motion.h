@@ -22,12 +22,13 @@ namespace softcell
   /// Displacement and velocity of a body, and their steps in time.
   ///
   /// Steps solve by conjugate gradients with multigrid for the body at rest, which stop where they
-  /// are when time is over. They begin with the best combination of the last three velocities,
-  /// which often is within some percent of the solution, and keep conjugate to them what follows,
-  /// so that after any number of iterations w (A w - b) = 0 but for what is imposed, see advance():
-  /// few iterations cannot raise the energy. Where the law's own energy rises above what is put in,
-  /// the way of the step is halved. Implicit Euler uses tangents without compressive stress, which
-  /// are positive semi-definite (Stresses::tensile); it is of first order with any.
+  /// are when time is over. They begin with the best combination of the last velocity and its last
+  /// change, which often is within some percent of the solution, and keep conjugate to both what
+  /// follows, so that after any number of iterations w (A w - b) = 0 but for what is imposed, see
+  /// advance(): few iterations cannot raise the energy. Where the law's own energy rises above what
+  /// is put in, the way of the step is halved, and what is imposed comes late. Implicit Euler uses
+  /// tangents without compressive stress, which are positive semi-definite (Stresses::tensile); it
+  /// is of first order with any.
   template <class Real>
   class LatticeMotion
   {
@@ -99,27 +100,26 @@ namespace softcell
     }
 
   private:
-    static constexpr unsigned int n_velocities = 3;
-
     void linearise();
     void impulse(const LatticeVector<Real> &external, double h, LatticeVector<Real> &b);
     void combine(Real stiffness, Real mass, bool has_time);
     double strain();
-    double work(const LatticeVector<Real> &start, const LatticeVector<Real> &external);
-    void shorten(const LatticeVector<Real> &start, double available, double dt);
+    double work(const LatticeVector<Real> &external);
+    void shorten(double available, double dt);
     void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
+    void add_start(const LatticeVector<Real> &direction);
     void prepare_starts(const LatticeVector<Real> &w);
     double precondition();
     void solve(const Effort &effort, LatticeVector<Real> &w);
     Step iterate(const Effort &effort, double energy, LatticeVector<Real> &w);
 
     MotionParameters parameters_;
-    std::vector<std::size_t> held_;
+    std::vector<std::size_t> held_, light_; // entries, the latter of nodes with little mass
     LatticeUnknowns unknowns_;
     LatticeTangent<Real> tangent_;
     LatticeVector<Real> u_, v_, reaction_;
-    LatticeVector<Real> r_, z_, p_, Ap_;
-    std::vector<LatticeVector<Real>> velocities_, starts_, A_starts_;
+    LatticeVector<Real> r_, z_, p_, Ap_, way_, w_before_;
+    std::vector<LatticeVector<Real>> starts_, A_starts_;
     unsigned int n_starts_ = 0; // that there are
     Real stiffness_ = 0, mass_ = 0;
     GeometricMultigrid<Real> multigrid_;
