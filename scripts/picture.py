@@ -2,17 +2,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws bodies at rest and deformed, coloured by displacement.
 
-usage: picture.py SURFACE.vtp...     writes SURFACE.png beside each surface
+usage: picture.py SURFACE.vtp...     writes SURFACE.png beside each surface: at rest and deformed; of a motion, at rest,
+                                     at up to three states of solution.pvd on the way, and at the end
        picture.py --study DIR        writes tile.png beside the surfaces of a study's cases (12 at most, then the finest
                                      of each series), all to the same scale, which is DIR/scale.png
 It needs a display (or xvfb-run).
 
 The surface stands at its deformed place and has the point data `displacement`, all in metres.
 """
+import copy
 import csv
 import os
 import pathlib
 import sys
+import xml.etree.ElementTree
 
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -39,17 +42,17 @@ def read(file):
 
 
 def moved(surface, points, magnitude):
-    """A copy of the surface with other points, coloured by the magnitude, with normals to shade it."""
-    copy = vtk.vtkPolyData()
+    """The surface with other points, coloured by the magnitude, with normals to shade it."""
+    result = vtk.vtkPolyData()
     vtk_points = vtk.vtkPoints()
     vtk_points.SetData(numpy_to_vtk(points, deep=True))
-    copy.SetPoints(vtk_points)
-    copy.SetPolys(surface.GetPolys())
+    result.SetPoints(vtk_points)
+    result.SetPolys(surface.GetPolys())
     colour = numpy_to_vtk(magnitude, deep=True)
     colour.SetName("magnitude")
-    copy.GetPointData().SetScalars(colour)
+    result.GetPointData().SetScalars(colour)
     normals = vtk.vtkPolyDataNormals()
-    normals.SetInputData(copy)
+    normals.SetInputData(result)
     normals.SetFeatureAngle(50)
     normals.Update()
     return normals.GetOutput()
@@ -192,18 +195,15 @@ def colour_bar(table, name, width):
     return bar
 
 
-def load_reached(file):
-    """What results.csv says of the surface's case where it did not converge: the part of the load; else None."""
+def case_of(file):
+    """What results.csv says of the surface's case; empty if nothing."""
     folder = pathlib.Path(file).resolve().parent
     for table in (folder / "results.csv", folder.parent / "results.csv"):
         if table.exists():
             with open(table, newline="") as stream:
                 rows = list(csv.DictReader(stream))
-            for row in rows:
-                if (row["case"] == folder.name or len(rows) == 1) and row["converged"] == "false":
-                    return float(row["load_factor"])
-            return None
-    return None
+            return next((row for row in rows if row["case"] == folder.name or len(rows) == 1), {})
+    return {}
 
 
 def new_window(size):
@@ -253,24 +253,61 @@ class Deformed:
     def largest(self):
         return max(self.magnitude.max(), 1e-12)
 
+    def in_state(self, file):
+        """The same surface in a state of the cells around it."""
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(file))
+        points, places = vtk.vtkPoints(), vtk.vtkPolyData()
+        points.SetData(numpy_to_vtk(self.at_rest, deep=True))
+        places.SetPoints(points)
+        probe = vtk.vtkProbeFilter()
+        probe.SetInputData(places)
+        probe.SetSourceConnection(reader.GetOutputPort())
+        probe.ComputeToleranceOff()
+        probe.SetTolerance(1e-3 * np.ptp(self.at_rest, axis=0).max())
+        probe.Update()
+        state = copy.copy(self)
+        state.displacement = vtk_to_numpy(probe.GetOutput().GetPointData().GetArray("displacement")).astype(float)
+        state.magnitude = np.linalg.norm(state.displacement, axis=1)
+        state.points = self.at_rest + state.displacement
+        return state
+
+
+def on_the_way(file):
+    """Times and files of some states of a motion before its end, from solution.pvd beside the surface."""
+    pvd = pathlib.Path(file).with_name("solution.pvd")
+    if not pvd.exists():
+        return []
+    states = [(float(state.get("timestep")), pvd.with_name(state.get("file")))
+              for state in xml.etree.ElementTree.parse(pvd).iter("DataSet")][:-1]
+    return [states[(2 * k + 1) * len(states) // 6] for k in range(3)] if len(states) > 3 else states
+
 
 def draw(file):
     """The body at rest and deformed, side by side over the scale of colours."""
-    one = Deformed(file)
-    name, factor = unit(one.largest())
-    table = colours(top_of_scale(max(factor * one.largest(), 1e-6)))
-    reached = load_reached(file)
-    title = "deformed" if reached is None else f"not converged: at {reached:.3g} of the load"
-    rest = moved(one.surface, one.at_rest, factor * one.magnitude)
-    deformed = moved(one.surface, one.points, factor * one.magnitude)
+    end, case = Deformed(file), case_of(file)
+    bodies = [("deformed", end)]
+    if case.get("time"):
+        bodies = [*((f"{time:.3g} s", end.in_state(state)) for time, state in on_the_way(file)),
+                  (f"{float(case['time']):.3g} s", end)]
+    elif case.get("converged") == "false":
+        bodies = [(f"not converged: at {float(case['load_factor']):.3g} of the load", end)]
+    largest = max(one.largest() for _, one in bodies)
+    name, factor = unit(largest)
+    table = colours(top_of_scale(max(factor * largest, 1e-6)))
+    rest = moved(end.surface, end.at_rest, factor * end.magnitude)
     window = new_window((WIDTH, HEIGHT))
+    width = 1 / (1 + len(bodies))
+    renderers = [add_renderer(window, (0, 0.2, width, 1), [body(rest), text("at rest", 34, 0.5, 0.93)])]
     # The shadow lies a layer deeper, so that it never covers the body.
-    renderers = [add_renderer(window, (left, 0.2, left + 0.5, 1), actors, layer)
-                 for layer, left, actors in ((0, 0.5, [outline(rest)]),
-                                             (0, 0.0, [body(rest), text("at rest", 34, 0.5, 0.93)]),
-                                             (1, 0.5, [body(deformed, table), text(title, 34, 0.5, 0.93)]))]
+    for i, (title, one) in enumerate(bodies, 1):
+        deformed = moved(one.surface, one.points, factor * one.magnitude)
+        for layer, actors in ((0, [outline(rest)]), (1, [body(deformed, table), text(title, 34, 0.5, 0.93)])):
+            renderers.append(add_renderer(window, (i * width, 0.2, (i + 1) * width, 1), actors, layer))
     add_renderer(window, (0, 0, 1, 0.2), [colour_bar(table, name, 0.44)])
-    point_camera(renderers, one.at_rest, one.displacement, WIDTH / 2 / (HEIGHT * 0.8), 0.8)
+    at_rest = np.vstack([end.at_rest] * len(bodies))
+    displacement = np.vstack([one.displacement for _, one in bodies])
+    point_camera(renderers, at_rest, displacement, WIDTH * width / (HEIGHT * 0.8), 0.8)
     write(window, os.path.splitext(file)[0] + ".png")
 
 

@@ -37,6 +37,12 @@ namespace softcell
                                                        "min_jacobian",
                                                        "converged"};
     const std::vector<std::string> further_columns  = {"load_factor",
+                                                       "time",
+                                                       "time_steps",
+                                                       "slowest_step_ms",
+                                                       "late_steps",
+                                                       "kinetic_energy",
+                                                       "most_linear_iterations",
                                                        "cell_size",
                                                        "smallest_cut",
                                                        "unfitted_cells",

@@ -325,7 +325,8 @@ namespace softcell
     const auto report = [&](const NewtonIteration &iteration) {
       n_iterations = iteration.iteration;
       n_linear_iterations += iteration.linear_iterations;
-      residual = iteration.residual;
+      most_linear_iterations_ = std::max(most_linear_iterations_, iteration.linear_iterations);
+      residual                = iteration.residual;
       std::ostringstream text;
       text << step_text << ", iteration " << iteration.iteration << ": residual "
            << in_digits(iteration.residual) << ", update " << in_digits(iteration.update)

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace softcell
@@ -83,20 +85,20 @@ namespace softcell
         return imposed_;
       }
 
-      /// By region, what moves or holds it. Units: N
-      std::vector<std::pair<std::string, Direction>>
+      /// By region, of what moves or holds it. Units: N
+      std::map<std::string, Direction>
       tool_forces(const double t, const LatticeVector<Real> &u, const LatticeVector<Real> &reaction)
       {
-        std::vector<std::pair<std::string, Direction>> forces;
+        std::map<std::string, Direction> forces; // a region may have several loads
         copy(u, cells_.entries, u_);
         for (const auto &load : loads_.forces)
           if (!load->is_proportional())
-            forces.emplace_back(load->region(), load->total_force(u_, t));
+            forces[load->region()] += load->total_force(u_, t);
         copy(reaction, cells_.entries, u_);
         const auto &regions                   = loads_.imposed.regions();
         const std::vector<Direction> strongly = loads_.imposed.reactions(u_);
         for (unsigned int i = 0; i < regions.size(); ++i)
-          forces.emplace_back(regions[i], strongly[i]);
+          forces[regions[i]] += strongly[i];
         return forces;
       }
 
@@ -107,6 +109,15 @@ namespace softcell
       Vector u_, constant_, sum_;
       LatticeVector<Real> force_, imposed_;
     };
+
+    std::string frames_head(const std::map<std::string, Direction> &forces)
+    {
+      std::string head =
+        "time,step_ms,linear_iterations,linear_residual,kinetic_energy,strain_energy";
+      for (const auto &[region, force] : forces)
+        head += ',' + region + "_fx," + region + "_fy," + region + "_fz";
+      return head + '\n';
+    }
 
     double end_time(const Parameters &parameters)
     {
@@ -191,32 +202,49 @@ namespace softcell
           begin + std::chrono::microseconds(std::lround(1e3 * dynamics.frame_budget));
       const auto step =
         motion.advance(dt, outside.force(t - (1 - middle) * dt), outside.imposed(t), effort);
-      const auto forces = outside.tool_forces(t, now.displacement(), now.reaction());
-      const double ms   = milliseconds(begin, Clock::now());
-      if (frame == 1)
-      {
-        table << "time,step_ms,linear_iterations,linear_residual,kinetic_energy,strain_energy";
-        for (const auto &[region, force] : forces)
-          table << ',' << region << "_fx," << region << "_fy," << region << "_fz";
-        table << '\n';
-      }
-      table << t << ',' << ms << ',' << step.iterations << ',' << step.residual << ','
-            << motion.kinetic_energy() << ',' << motion.strain_energy();
-      for (const auto &[region, force] : forces)
+      motion_.forces         = outside.tool_forces(t, now.displacement(), now.reaction());
+      const double ms        = milliseconds(begin, Clock::now());
+      motion_.slowest_ms     = std::max(motion_.slowest_ms, ms);
+      motion_.kinetic_energy = motion.kinetic_energy();
+      motion_.n_late += dynamics.frame_budget > 0 && ms > dynamics.frame_budget;
+      table << (frame == 1 ? frames_head(motion_.forces) : "") << t << ',' << ms << ','
+            << step.iterations << ',' << step.residual << ',' << motion_.kinetic_energy << ','
+            << motion.strain_energy();
+      for (const auto &[region, force] : motion_.forces)
         table << ',' << force[0] << ',' << force[1] << ',' << force[2];
       table << '\n';
       history_.linear_iterations += step.iterations;
+      most_linear_iterations_ = std::max(most_linear_iterations_, step.iterations);
       console_.progress("  frame " + std::to_string(frame) + " of " + std::to_string(n_frames) +
                         ": " + std::to_string(step.iterations) + " linear iterations");
       copy(now.displacement(), cells.entries, displacement_);
       if (every > 0 && frame % every == 0)
         write_state(folder, t);
     }
-    history_.load_steps = n_frames;
-    history_.reached    = n_frames / dynamics.steps_per_second;
-    history_.converged  = true;
+    motion_.n_steps    = n_frames;
+    history_.reached   = n_frames / dynamics.steps_per_second;
+    history_.converged = true;
     make_folder(folder.string());
     write_file((folder / "frames.csv").string(), table.str());
+    say_motion();
+  }
+
+  void Simulation::say_motion()
+  {
+    std::ostringstream text;
+    text << "  " << motion_.n_steps << " steps to t = " << history_.reached << " s, "
+         << history_.linear_iterations << " linear iterations, the slowest step took "
+         << std::setprecision(3) << motion_.slowest_ms << " ms";
+    console_.say(text.str());
+    if (motion_.n_late == 0)
+      return;
+    std::ostringstream warning;
+    warning << motion_.n_late << " of " << motion_.n_steps
+            << " steps took longer than Dynamics/Frame budget = "
+            << parameters_.dynamics.frame_budget << " ms, the slowest " << std::setprecision(3)
+            << motion_.slowest_ms
+            << " ms; give fewer Discretization/Cells, more ms or more threads (OMP_NUM_THREADS).";
+    warn({warning.str()});
   }
 
   template void Simulation::move<double>(const std::filesystem::path &);

@@ -45,11 +45,8 @@ namespace softcell
     row.set("cut_cells", size_.cut_cells);
     row.set("dofs", size_.unknowns);
     row.set("integration_points", size_.integration_points);
-    row.set("load_steps", history_.load_steps);
-    row.set("newton_iterations", history_.newton_iterations);
     row.set("linear_iterations", history_.linear_iterations);
     row.set("setup_s", timers_.seconds("setup"));
-    row.set("assembly_s", timers_.mean("assembly"));
     row.set("solve_s", timers_.seconds("solve") - timers_.seconds("states"));
     row.set("total_s", timers_.total());
     row.set("peak_rss_mib", peak_rss_mib(MPI_COMM_WORLD));
@@ -58,7 +55,11 @@ namespace softcell
     row.set("l2_displacement", l2_norm(*discretization_, displacement_));
     row.set("min_jacobian", elasticity.min_jacobian(displacement_));
     row.set("converged", history_.converged);
-    row.set("load_factor", history_.reached);
+    if (is_dynamic())
+      add_motion(row);
+    else
+      add_equilibrium(row);
+    row.set("most_linear_iterations", most_linear_iterations_);
     row.set("cell_size", cell_size());
     if (size_.smallest_cut < 1)
       row.set("smallest_cut", size_.smallest_cut);
@@ -69,8 +70,6 @@ namespace softcell
       row.set("refinement_steps", steps);
       row.set("estimated_error", estimated_error(cell_errors()));
     }
-    if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
-      row.set("load_energy", energy);
     if (const double energy = model_->stabilization().energy(displacement_); energy > 0)
       row.set("stabilization_energy", energy);
     if (const double condition = model_->condition(); std::isfinite(condition))
@@ -84,15 +83,34 @@ namespace softcell
       for (unsigned int c = 0; c < 3; ++c)
         row.set(parameters_.probes[i].first + "_u" + axes[c], at_probes.displacements[i][c]);
 
-    if (is_dynamic()) // frames.csv has the forces
-      return row;
-    std::map<std::string, Direction> forces; // a region may have several loads
-    for (const auto &[region, force] : model_->region_forces(displacement_))
-      forces[region] += force;
+    std::map<std::string, Direction> forces = motion_.forces; // a region may have several loads
+    if (!is_dynamic())
+      for (const auto &[region, force] : model_->region_forces(displacement_))
+        forces[region] += force;
     for (const auto &[region, force] : forces)
       for (unsigned int c = 0; c < 3; ++c)
         row.set(region + "_f" + axes[c], force[c]);
     return row;
+  }
+
+  void Simulation::add_motion(ResultsRow &row) const
+  {
+    row.set("time", history_.reached);
+    row.set("time_steps", motion_.n_steps);
+    row.set("slowest_step_ms", motion_.slowest_ms);
+    if (parameters_.dynamics.frame_budget > 0)
+      row.set("late_steps", motion_.n_late);
+    row.set("kinetic_energy", motion_.kinetic_energy);
+  }
+
+  void Simulation::add_equilibrium(ResultsRow &row) const
+  {
+    row.set("load_steps", history_.load_steps);
+    row.set("newton_iterations", history_.newton_iterations);
+    row.set("assembly_s", timers_.mean("assembly"));
+    row.set("load_factor", history_.reached);
+    if (const double energy = model_->load_energy(displacement_); std::isfinite(energy))
+      row.set("load_energy", energy);
   }
 
   double Simulation::cell_size() const

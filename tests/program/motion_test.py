@@ -16,17 +16,34 @@ def dynamics(folder):
         words = [word for entry in entries for word in ("--set", entry)]
         status, out, error = softcell("bar.prm", *words, "--output", to, folder=folder)
         check(status == 0, f"{to}: status {status}: {out[-2000:]} {error[-2000:]}")
-        return rows(folder / to / "results.csv")[0]
+        return rows(folder / to / "results.csv")[0], out + error
 
-    static = run("static", *tool)
+    def check_row(to, row, frames):
+        last = frames[-1]
+        for column, expected in (("time", last["time"]), ("time_steps", len(frames)),
+                                 ("kinetic_energy", last["kinetic_energy"]), ("top_fy", last["top_fy"]),
+                                 ("strain_energy", last["strain_energy"]),
+                                 ("slowest_step_ms", max(float(frame["step_ms"]) for frame in frames)),
+                                 ("linear_iterations", sum(int(frame["linear_iterations"]) for frame in frames))):
+            # frames.csv has nine digits; single precision, with a budget, six
+            check(abs(float(row[column]) - float(expected)) <= 1e-5 * abs(float(expected)),
+                  f"{to}: {column} is {row[column]} in results.csv and {expected} in frames.csv")
+        for column in ("load_steps", "newton_iterations", "assembly_s", "load_factor"):
+            check(not row.get(column), f"{to}: a motion has no {column}, but {row.get(column)}")
+
+    static, _ = run("static", *tool)
     for to, settings, tolerance in (("exact", ["Solver/Linear tolerance = 1e-8"], 1e-5),
                                     ("newmark", ["Solver/Linear tolerance = 1e-8", "Dynamics/Scheme = Newmark"], 1e-4),
                                     ("penalty", ["Loads/Imposed displacement = penalty", "Loads/Penalty = 1e7"], 0.02),
                                     ("hurried", ["Dynamics/Frame budget = 5"], 0.01)):
-        row = run(to, *motion, *settings)
+        row, _ = run(to, *motion, *settings)
         frames = rows(folder / to / "frames.csv")
         check(len(frames) == 120 and float(frames[-1]["time"]) == 2, f"{to}: {len(frames)} frames")
+        check_row(to, row, frames)
         check("solution_0002.vtu" in " ".join(os.listdir(folder / to)), f"{to}: states {os.listdir(folder / to)}")
         found, expected = float(frames[-1]["top_fy"]), float(static["top_fy"])
         check(abs(found - expected) < tolerance * abs(expected), f"{to}: the tool feels {found}, held still {expected}")
         check(abs(float(row["tip_uy"]) - 0.01) < 1e-4, f"{to}: the tip is at {row['tip_uy']}")
+    row, out = run("late", *motion, "Dynamics/Frame budget = 1e-3", "Dynamics/End time = 0.1")
+    check(row["late_steps"] == "6" and "6 of 6 steps took longer than Dynamics/Frame budget" in out,
+          f"late steps: {row['late_steps']}: {out}")

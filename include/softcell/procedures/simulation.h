@@ -11,6 +11,7 @@
 #include <softcell/solvers/load_steps.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -109,6 +110,15 @@ namespace softcell
       return parameters_.procedure.mode == "dynamic";
     }
 
+    /// What a motion came to.
+    struct MotionHistory
+    {
+      unsigned int n_steps = 0, n_late = 0;    // late: over the frame budget
+      double slowest_ms     = 0;               // of a step
+      double kinetic_energy = 0;               // at the end. Units: J
+      std::map<std::string, Direction> forces; // at the end, by region. Units: N
+    };
+
     /// Makes the discretization and all that stands on it, with no displacement.
     /// @throws BadInput
     void build();
@@ -142,9 +152,16 @@ namespace softcell
     /// @throws BadInput where the parameters ask for what there is not in a motion.
     void check_motion() const;
 
-    /// Moves the body from displacement_ at rest to the end time. Real is the precision.
+    /// Moves the body from displacement_ at rest to the end time and writes frames.csv. Real is the
+    /// precision.
     template <class Real>
     void move(const std::filesystem::path &folder);
+    /// Tells how a motion went.
+    void say_motion();
+
+    /// Add to a row what only a motion has, and what only an equilibrium has.
+    void add_motion(ResultsRow &row) const;
+    void add_equilibrium(ResultsRow &row) const;
 
     /// Adds the state at a load factor to solution.pvd and makes it the checkpoint, once.
     void write_state(const std::filesystem::path &folder, double load_factor);
@@ -172,6 +189,8 @@ namespace softcell
     Vector displacement_;
     double start_ = 0; // load factor
     LoadHistory history_;
+    MotionHistory motion_;
+    unsigned int most_linear_iterations_ = 0; // of one system
     std::unique_ptr<SolutionWriter> states_;
     double written_ = -1; // load factor of the last state
   };
