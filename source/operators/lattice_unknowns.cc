@@ -4,6 +4,7 @@
 #include <softcell/operators/lattice_unknowns.h>
 
 #include <softcell/mechanics/kinematics.h>
+#include <softcell/quadrature/weighted_cell.h>
 
 #include <algorithm>
 
@@ -63,10 +64,14 @@ namespace softcell
     };
     std::for_each(fine.gauss_cells.begin(), fine.gauss_cells.end(), add);
     std::for_each(fine.point_cells.begin(), fine.point_cells.end(), add);
-    std::copy_if(cells.begin(), cells.end(), std::back_inserter(coarse.gauss_cells),
-                 [](const GaussCell &cell) {
-                   return *std::max_element(cell.weights.begin(), cell.weights.end()) > 0;
-                 });
+    for (GaussCell &cell : cells)
+    {
+      const double volume = std::accumulate(cell.weights.begin(), cell.weights.end(), 0.);
+      if (volume == 0)
+        continue;
+      WeightedCell::steady(cell.weights, volume / 8, CutParameters().spread);
+      coarse.gauss_cells.push_back(cell);
+    }
     return coarse;
   }
 

@@ -52,21 +52,22 @@ namespace softcell
     if (parameters_.levels == 0 && body_.filled_volume(cell) > 1e-9 * cell_volume)
       volume = cell_volume;
 
-    if (is_mechanism(fractions))
-      for (double &v : fractions)
-        v += parameters_.spread * (volume / cell_volume - v);
+    steady({fractions.data(), fractions.size()}, volume / cell_volume, parameters_.spread);
     for (unsigned int i = 0; i < gauss_.size(); ++i)
       weights_.push_back(fractions[i] * gauss_.weight(i) * cell_volume);
     labels_.add(labels);
     return volume;
   }
 
-  bool WeightedCell::is_mechanism(const std::vector<double> &fractions)
+  void WeightedCell::steady(const View<double> fractions, const double mean, const double spread)
   {
-    const double largest        = *std::max_element(fractions.begin(), fractions.end());
-    const std::size_t n_weighty = std::count_if(fractions.begin(), fractions.end(),
-                                                [&](const double v) { return v > 0.1 * largest; });
-    return n_weighty < fractions.size() / 2;
+    const double largest    = *std::max_element(fractions.begin(), fractions.end());
+    const auto n_weighty    = std::count_if(fractions.begin(), fractions.end(),
+                                            [&](const double v) { return v > 0.1 * largest; });
+    const bool is_mechanism = std::size_t(n_weighty) < fractions.size() / 2;
+    if (is_mechanism)
+      for (double &v : fractions)
+        v += spread * (mean - v);
   }
 
   WeightedCell::Filled WeightedCell::filled(const Box &part, const Point &gauss_point) const

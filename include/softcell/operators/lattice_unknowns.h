@@ -14,7 +14,8 @@ namespace softcell
   /// an axis is odd, the last ones reach beyond them.
   ///
   /// An octant of a coarse cell is a cell of the finer lattice, whose volume its Gauss point gets:
-  /// so these are weighted cells of the same body.
+  /// so these are weighted cells of the same body. Mechanisms among them are steadied, since a
+  /// coarsest grid that has one is nearly singular.
   CellLattice coarse_cells(const CellLattice &fine);
 
   /// The nodes of a body's cells, and which of their unknowns are free.

@@ -46,6 +46,11 @@ namespace softcell
     }
     void points(unsigned int index, CutPoints &result) const override;
 
+    /// Spreads the part `spread` of what fills a cell over its points, if it is a mechanism.
+    /// @param fractions  of the points, or weights where they share the cell equally.
+    /// @param mean       of the fractions over the cell.
+    static void steady(View<double> fractions, double mean, double spread);
+
   private:
     /// The filled fraction of a point's part, and the label of most of that.
     struct Filled
@@ -54,9 +59,6 @@ namespace softcell
       unsigned char label;
     };
     Filled filled(const Box &part, const Point &gauss_point) const;
-    /// Do less than half of the parts hold more than a tenth of what the fullest one holds?
-    static bool is_mechanism(const std::vector<double> &fractions);
-
     const Body &body_;
     const CutParameters parameters_;
     const dealii::Quadrature<3> gauss_;
