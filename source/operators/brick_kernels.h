@@ -19,7 +19,11 @@ namespace softcell
       Real *first;
       SOFTCELL_HOST_DEVICE Real &operator[](const int i) const
       {
-        return first[i * CellBricks<Real>::n_cells];
+        int place = i * CellBricks<Real>::n_cells;
+#ifdef __CUDA_ARCH__
+        asm volatile("" : "+r"(place)); // or the compiler keeps what is there in registers
+#endif
+        return first[place];
       }
     };
     SOFTCELL_HOST_DEVICE Row operator[](const int row) const
@@ -30,8 +34,8 @@ namespace softcell
 
   /// A thread's cell, as cell_kernels.h wants it. What it adds to is its column of the corners'
   /// values.
-  /// @tparam shares_state  the gradients of a tangent's displacement are in its column as well: in
-  /// double precision they are too many for registers.
+  /// @tparam shares_state  the gradients of a tangent's displacement are in its column as well,
+  /// which leaves registers for more blocks at once.
   template <class Real, bool shares_state>
   struct ThreadCell
   {
@@ -119,6 +123,7 @@ namespace softcell
   }
 
   /// Runs an action in the cells of bricks. The action has
+  ///   min_blocks                           of BrickKernel
   ///   n_values                             that it leaves at each corner, in `corners`: value k of
   ///                                        corner i in entry (8 k + i) n_cells
   ///   operator()(cell, geometry, corners)  returns how many points are turned inside out
@@ -130,7 +135,8 @@ namespace softcell
     using Scratch = Real;
 
     static constexpr int n_threads = Bricks::n_cells, n_phases = 2;
-    static constexpr int n_state = Action::shares_state ? 36 : 0;
+    static constexpr int n_state    = Action::shares_state ? 36 : 0;
+    static constexpr int min_blocks = Action::min_blocks;
     static constexpr int count_row =
       Action::n_values * 8 > n_state ? Action::n_values * 8 : n_state;
     static constexpr int n_scratch = (count_row + (Action::counts ? 1 : 0)) * n_threads;
@@ -209,8 +215,14 @@ namespace softcell
   template <class Real, class Law>
   struct TangentAction
   {
-    static constexpr int n_values = 3;
-    static constexpr bool counts = false, shares_state = true;
+    static constexpr int n_values      = 3;
+    static constexpr bool counts       = false;
+    static constexpr bool shares_state = has_costly_pressure<Law>; // faster
+    // without spills
+    static constexpr int min_blocks = !shares_state                           ? 0
+                                      : sizeof(Real) == sizeof(float)         ? 5
+                                      : std::is_same_v<Law, NeoHookean<Real>> ? 3
+                                                                              : 2;
 
     Law law;
     Components<const Real> u, x;
@@ -234,7 +246,7 @@ namespace softcell
   template <class Real, class Law>
   struct ResidualAction
   {
-    static constexpr int n_values = 3;
+    static constexpr int n_values = 3, min_blocks = 0;
     static constexpr bool counts = true, shares_state = false;
 
     Law law;
@@ -251,7 +263,7 @@ namespace softcell
   template <class Real, class Law>
   struct PressureAction
   {
-    static constexpr int n_values = 0;
+    static constexpr int n_values = 0, min_blocks = 0;
     static constexpr bool counts = true, shares_state = false;
 
     Law law;
@@ -270,7 +282,7 @@ namespace softcell
   template <class Real, class Law>
   struct DiagonalAction
   {
-    static constexpr int n_values = 6;
+    static constexpr int n_values = 6, min_blocks = 0;
     static constexpr bool counts = false, shares_state = false;
 
     Law law;

@@ -10,6 +10,7 @@ namespace softcell
 {
   // A kernel is a struct of numbers and of pointers into the memory of a device, with
   //   n_threads                        of a block
+  //   min_blocks                       for which a multiprocessor has registers; it may be missing
   //   n_phases                         all threads of a block end a phase before the next one
   //   Scratch, n_scratch               type and number of what the threads of a block share
   //   operator()(phase, block, thread, scratch) const

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace softcell
 {
@@ -36,8 +37,14 @@ namespace softcell
       throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(error));
   }
 
+  template <class Kernel, class = void>
+  constexpr int min_blocks = 0;
   template <class Kernel>
-  __global__ void __launch_bounds__(Kernel::n_threads) run_kernel(const Kernel kernel)
+  constexpr int min_blocks<Kernel, std::void_t<decltype(Kernel::min_blocks)>> = Kernel::min_blocks;
+
+  template <class Kernel>
+  __global__ void __launch_bounds__(Kernel::n_threads, min_blocks<Kernel>)
+    run_kernel(const Kernel kernel)
   {
     __shared__ typename Kernel::Scratch scratch[Kernel::n_scratch + (Kernel::n_scratch == 0)];
 #  pragma unroll
