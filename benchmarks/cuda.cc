@@ -2,7 +2,6 @@
 // How fast tangents act on a vector on a graphics card, cell by cell and by rows, and conjugate
 // gradients iterate there; and what the card could do at most. doc/gpu.md has what came out.
 
-#include <softcell/base/exceptions.h>
 #include <softcell/discretization/immersed.h>
 #include <softcell/geometry/geometry.h>
 #include <softcell/operators/cuda_elasticity.h>
@@ -10,6 +9,8 @@
 #include <softcell/operators/flat_patches.h>
 #include <softcell/operators/lattice_unknowns.h>
 #include <softcell/solvers/cuda_cg.h>
+#include <softcell/solvers/cuda_multigrid.h>
+#include <softcell/solvers/matrix_free_solver.h>
 
 #include "../tests/operators/lattice.h"
 #include "cuda_peak.h"
@@ -18,15 +19,25 @@
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <memory>
 
 namespace
 {
   using namespace softcell;
   using benchmark::Counter;
+
+  /// Entries of all nodes of cells.
+  std::vector<std::size_t> node_entries(const CellLattice &cells)
+  {
+    std::vector<std::size_t> entries = LatticeUnknowns(cells, {}).free_entries();
+    entries.resize(entries.size() / 3);
+    return entries;
+  }
 
   /// n x n x n full cells.
   CellLattice box(const int n)
@@ -40,6 +51,7 @@ namespace
           cells.gauss_cells.push_back({{{i, j, k}}, {}});
           cells.gauss_cells.back().weights.fill(h * h * h / 8);
         }
+    cells.entries = node_entries(cells);
     return cells;
   }
 
@@ -75,6 +87,7 @@ namespace
                                       {}});
           fine.gauss_cells.back().weights.fill(cell.weights[q] / 8);
         }
+    fine.entries = node_entries(fine);
     return fine;
   }
 
@@ -91,7 +104,24 @@ namespace
     return lattices.insert({{body, millions}, std::move(cells)}).first->second;
   }
 
-  /// The tangent of a body at rest that is held at its lowest nodes, and a force across.
+  /// Entries of the nodes of the lowest third.
+  std::vector<std::size_t> lowest(const CellLattice &cells)
+  {
+    int bottom = cells.nodes.n_cells()[2], top = 0;
+    for (const GaussCell &cell : cells.gauss_cells)
+    {
+      bottom = std::min(bottom, cell.place[2]);
+      top    = std::max(top, cell.place[2] + 1);
+    }
+    std::vector<std::size_t> entries;
+    const std::size_t plane = cells.nodes.plane(), n_planes = 1 + (top - bottom) / 3;
+    for (std::size_t node = bottom * plane; node < (bottom + n_planes) * plane; ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        entries.push_back(c * cells.nodes.size() + node);
+    return entries;
+  }
+
+  /// The tangent of a body at rest whose lowest third is held, and a force across.
   template <class Real>
   struct Problem
   {
@@ -116,19 +146,6 @@ namespace
       tangent.set_state(x);
       tangent.hold(held);
       b.copy_from(load.entries().data());
-    }
-
-    static std::vector<std::size_t> lowest(const CellLattice &cells)
-    {
-      int bottom = cells.nodes.n_cells()[2];
-      for (const GaussCell &cell : cells.gauss_cells)
-        bottom = std::min(bottom, cell.place[2]);
-      std::vector<std::size_t> entries;
-      const std::size_t plane = cells.nodes.plane();
-      for (std::size_t node = bottom * plane; node < (bottom + 1) * plane; ++node)
-        for (unsigned int c = 0; c < dim; ++c)
-          entries.push_back(c * cells.nodes.size() + node);
-      return entries;
     }
   };
 
@@ -198,20 +215,84 @@ namespace
     Problem<Real> p(lattice(body, millions), "Neo-Hookean");
     DeviceArray<Real, Cuda> blocks(2 * p.x.size());
     p.tangent.diagonal(blocks);
+    const InverseDiagonal<Real, Cuda> inverse(blocks, p.x.size());
     CudaCG<Real, Cuda> cg(p.x.size());
-    cg.set_diagonal(blocks);
     for (auto _ : state)
-      try
-      {
-        cg.solve([&](auto &y, const auto &x) { p.tangent.vmult(y, x); }, p.x, p.b, 1e-6, 300);
-      }
-      catch (const NotConverged &)
-      {
-      }
+      cg.iterate([&](auto &y, const auto &x) { p.tangent.vmult(y, x); },
+                 [&](auto &z, const auto &r) { inverse.vmult(z, r); }, p.x, p.b, 1e-6, 300);
     const double n                 = cg.history().size();
     state.counters["iterations"]   = n;
     state.counters["iterations/s"] = rate(n);
-    state.counters["unknowns/s"]   = rate(n * p.unknowns.free_entries().size());
+    state.counters["unknowns/s"]   = rate(n * 3 * lattice(body, millions).entries.size());
+  }
+
+  template <class F>
+  double seconds(const F &f)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    f();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  /// What multigrid does in conjugate gradients of double precision with a V-cycle in single
+  /// precision.
+  struct Effort
+  {
+    unsigned int degree;
+    double tolerance;
+  };
+
+  void multigrid(benchmark::State &state, const CellLattice &cells, const Effort &effort)
+  {
+    Problem<double> p(cells, "Neo-Hookean");
+    std::unique_ptr<CudaMultigrid<float, Cuda>> cycle;
+    state.counters["set-up, s"] = seconds([&] {
+      cycle = std::make_unique<CudaMultigrid<float, Cuda>>(
+        cells, Material("Neo-Hookean", 5000, 0.3), lowest(cells), effort.degree);
+    });
+    state.counters["state, s"]  = seconds([&] { cycle->set_state(p.x); });
+    state.counters["cycle, s"]  = seconds([&] {
+                                   for (int i = 0; i < n_runs; ++i)
+                                     cycle->vmult(p.y, p.b);
+                                   wait_for(p.y);
+                                 }) /
+                                 n_runs;
+    CudaCG<double, Cuda> cg(p.x.size());
+    unsigned int n = 0;
+    for (auto _ : state)
+      n = cg.solve([&](auto &y, const auto &x) { p.tangent.vmult(y, x); },
+                   [&](auto &z, const auto &r) { cycle->vmult(z, r); }, p.x, p.b, effort.tolerance,
+                   200);
+    state.counters["iterations"] = n;
+    state.counters["cells"]      = cells.gauss_cells.size();
+    state.counters["unknowns"]   = p.unknowns.free_entries().size();
+  }
+
+  /// The same on the host, to 1e-6.
+  void multigrid_of_the_host(benchmark::State &state, const CellLattice &cells)
+  {
+    std::vector<std::size_t> numbers(3 * cells.nodes.size(), 3 * cells.entries.size());
+    for (std::size_t node = 0; node < cells.entries.size(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        numbers[c * cells.nodes.size() + cells.entries[node]] = 3 * node + c;
+    std::vector<unsigned int> held;
+    for (const std::size_t entry : lowest(cells))
+      if (numbers[entry] < 3 * cells.entries.size())
+        held.push_back(numbers[entry]);
+    LinearSolverParameters parameters;
+    parameters.tolerance      = 1e-6;
+    parameters.max_iterations = 200;
+    const auto partitioner    = std::make_shared<Partitioner>(3 * cells.entries.size());
+    Vector b(partitioner), x(partitioner);
+    for (std::size_t node = 0; node < cells.entries.size(); ++node)
+      b.local_element(3 * node) = 1;
+    MatrixFreeSolver solver(cells, Material("Neo-Hookean", 5000, 0.3), held, parameters);
+    solver.set_state(x);
+    state.counters["state, s"] =
+      seconds([&] { solver.set_matrix(BlockMatrix(partitioner, {}), {}, {}); });
+    for (auto _ : state)
+      state.counters["iterations"] = solver.solve(x, b);
+    state.counters["unknowns"] = 3 * cells.entries.size() - held.size();
   }
 
   /// Copies 2 GiB; bytes that are read and bytes that are written.
@@ -241,43 +322,59 @@ namespace
     state.counters["operations/s"] = rate(2. * Kernel::n_chains * Kernel::n_steps * results.size());
   }
 
-  template <class Real>
-  void register_all(const std::string &real)
+  template <class F>
+  void add(const std::string &name, const F &f)
   {
-    const auto add = [&](const std::string &name, const auto &f) {
-      benchmark::RegisterBenchmark((name + '/' + real).c_str(), f)
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-    };
-    add("fused operations", fused_operations<Real>);
+    benchmark::RegisterBenchmark(name.c_str(), f)->UseRealTime()->Unit(benchmark::kMillisecond);
+  }
+
+  /// Calls f(name, body, millions).
+  template <class F>
+  void for_each_body(const F &f)
+  {
     std::vector<std::string> bodies{"box"};
     if (std::ifstream(SOFTCELL_LIVER))
       bodies.emplace_back("liver");
     for (const std::string &body : bodies)
       for (const int millions : {1, 8})
-      {
-        const std::string problem = body + '/' + std::to_string(millions) + "e6";
-        for (const std::string law : {"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"})
-          add("tangent/" + problem + '/' + law,
-              [=](benchmark::State &state) { tangent_action<Real>(state, body, millions, law); });
-        add("conjugate gradients/" + problem,
-            [=](benchmark::State &state) { conjugate_gradients<Real>(state, body, millions); });
-      }
-    add("tangent by rows", rows<Real>);
+        f(body + '/' + std::to_string(millions) + "e6", body, millions);
+  }
+
+  template <class Real>
+  void register_all(const std::string &real)
+  {
+    add("fused operations/" + real, fused_operations<Real>);
+    for_each_body([&](const std::string &name, const std::string &body, const int millions) {
+      for (const std::string law : {"Neo-Hookean", "Saint-Venant-Kirchhoff", "linear"})
+        add("tangent/" + name + '/' + law + '/' + real,
+            [=](benchmark::State &state) { tangent_action<Real>(state, body, millions, law); });
+      add("conjugate gradients/" + name + '/' + real,
+          [=](benchmark::State &state) { conjugate_gradients<Real>(state, body, millions); });
+    });
+    add("tangent by rows/" + real, rows<Real>);
   }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
   if (!Cuda::is_there())
   {
     std::cerr << "There is no graphics card.\n";
     return 1;
   }
   benchmark::Initialize(&argc, argv);
-  benchmark::RegisterBenchmark("copy", copy_memory)->UseRealTime()->Unit(benchmark::kMillisecond);
+  add("copy", copy_memory);
   register_all<double>("double");
   register_all<float>("float");
+  for_each_body([](const std::string &name, const std::string &body, const int millions) {
+    add("multigrid/" + name, [=](benchmark::State &state) {
+      multigrid(state, lattice(body, millions), {4, 1e-6});
+    });
+    add("multigrid of the host/" + name,
+        [=](benchmark::State &state) { multigrid_of_the_host(state, lattice(body, millions)); });
+  });
+  if (std::ifstream(SOFTCELL_LIVER)) // about 16 000 cells, as many as a frame may have
+    add("multigrid/frame", [](benchmark::State &state) { multigrid(state, liver(29), {1, 1e-2}); });
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -19,32 +19,32 @@ namespace softcell
     Real *x, *d;               // (3, n_entries)
     Real *r;
 
-    /// d = a d + b D^-1 r; a = 0 forgets d
-    SOFTCELL_HOST_DEVICE void
-    precondition(const std::size_t entry, const Real a, const Real b, const Real *const r_now) const
+    /// s = b D^-1 r
+    SOFTCELL_HOST_DEVICE void precondition(const std::size_t entry,
+                                           const Real b,
+                                           const Real *const r_now,
+                                           Real *const s) const
     {
       const std::size_t n = n_entries;
       const Real *const D = D_inverse + entry;
-      Real *const d_now   = d + entry;
-      const Real s_x = b * r_now[0], s_y = b * r_now[1], s_z = b * r_now[2];
-      const Real d_x = D[0] * s_x + D[5 * n] * s_y + D[4 * n] * s_z,
-                 d_y = D[5 * n] * s_x + D[n] * s_y + D[3 * n] * s_z,
-                 d_z = D[4 * n] * s_x + D[3 * n] * s_y + D[2 * n] * s_z;
-      d_now[0]       = a == 0 ? d_x : a * d_now[0] + d_x;
-      d_now[n]       = a == 0 ? d_y : a * d_now[n] + d_y;
-      d_now[2 * n]   = a == 0 ? d_z : a * d_now[2 * n] + d_z;
+      const Real x_i = b * r_now[0], y_i = b * r_now[1], z_i = b * r_now[2];
+      s[0] = D[0] * x_i + D[5 * n] * y_i + D[4 * n] * z_i;
+      s[1] = D[5 * n] * x_i + D[n] * y_i + D[3 * n] * z_i;
+      s[2] = D[4 * n] * x_i + D[3 * n] * y_i + D[2 * n] * z_i;
     }
 
     /// x = 0, r as given, d = b D^-1 r
     SOFTCELL_HOST_DEVICE void
     start(const std::size_t entry, const Real b, const Real *const r_now) const
     {
+      Real s[3];
+      precondition(entry, b, r_now, s);
       for (int c = 0; c < 3; ++c)
       {
         x[c * n_entries + entry] = 0;
         r[c * n_entries + entry] = r_now[c];
+        d[c * n_entries + entry] = s[c];
       }
-      precondition(entry, 0, b, r_now);
     }
 
     /// Place of an entry; false if it belongs to no node.
@@ -68,16 +68,28 @@ namespace softcell
 
     SOFTCELL_HOST_DEVICE void operator()(const std::size_t entry, const Real *const Kd) const
     {
-      Real r[3];
+      // all is loaded before anything is stored: on small grids time is latency
+      Real x[3], r[3], d[3], s[3];
+      SOFTCELL_DEVICE_UNROLL
       for (int c = 0; c < 3; ++c)
       {
         const std::size_t i = c * nodes.n_entries + entry;
-        r[c]                = nodes.r[i] - (is_free(nodes.held, entry, c) ? Kd[c] : Real(0));
-        nodes.r[i]          = r[c];
-        nodes.x[i] += nodes.d[i];
+        x[c]                = nodes.x[i];
+        r[c]                = nodes.r[i];
+        d[c]                = nodes.d[i];
       }
-      if (b != 0)
-        nodes.precondition(entry, a, b, r);
+      SOFTCELL_DEVICE_UNROLL
+      for (int c = 0; c < 3; ++c)
+        r[c] -= is_free(nodes.held, entry, c) ? Kd[c] : Real(0);
+      nodes.precondition(entry, b, r, s);
+      SOFTCELL_DEVICE_UNROLL
+      for (int c = 0; c < 3; ++c)
+      {
+        const std::size_t i = c * nodes.n_entries + entry;
+        nodes.x[i]          = x[c] + d[c];
+        nodes.r[i]          = r[c];
+        nodes.d[i]          = a * d[c] + s[c];
+      }
     }
   };
 
@@ -91,7 +103,10 @@ namespace softcell
     {
       const std::size_t n = nodes.n_entries;
       const Real r[3]     = {nodes.r[entry], nodes.r[n + entry], nodes.r[2 * n + entry]};
-      nodes.precondition(entry, 0, 1, r);
+      Real z[3];
+      nodes.precondition(entry, 1, r, z);
+      for (int c = 0; c < 3; ++c)
+        nodes.d[c * n + entry] = z[c];
     }
   };
 

@@ -23,6 +23,12 @@ namespace softcell
                      const std::vector<unsigned int> &constrained,
                      const LinearSolverParameters &parameters);
 
+    /// @param cells  with entries for the nodes.
+    MatrixFreeSolver(const CellLattice &cells,
+                     const Material &material,
+                     const std::vector<unsigned int> &constrained,
+                     const LinearSolverParameters &parameters);
+
     /// Adds the internal force to r. Units: N. @throws InvertedPoint
     void add_internal_force(const Vector &u, Vector &r) const;
 
@@ -47,11 +53,6 @@ namespace softcell
     std::size_t memory() const;
 
   private:
-    MatrixFreeSolver(const CellLattice &cells,
-                     const Material &material,
-                     const std::vector<unsigned int> &constrained,
-                     const LinearSolverParameters &parameters);
-
     double finite_dot(const LatticeVector<double> &x, const LatticeVector<double> &y) const;
     [[noreturn]] void fail(const std::string &what) const;
     unsigned int iterate(double b_norm) const;
