@@ -28,4 +28,32 @@ namespace softcell
   {
     check_cuda(cudaMemcpy(to, from, n_bytes, cudaMemcpyDefault));
   }
+
+  Cuda::Recording::~Recording()
+  {
+    clear();
+  }
+
+  void Cuda::Recording::run(const std::function<void()> &work)
+  {
+    if (graph_ == nullptr)
+    {
+      cudaGraph_t graph    = nullptr;
+      cudaGraphExec_t exec = nullptr;
+      check_cuda(cudaStreamBeginCapture(cudaStreamPerThread, cudaStreamCaptureModeThreadLocal));
+      work();
+      check_cuda(cudaStreamEndCapture(cudaStreamPerThread, &graph));
+      check_cuda(cudaGraphInstantiate(&exec, graph, 0));
+      check_cuda(cudaGraphDestroy(graph));
+      graph_ = exec;
+    }
+    check_cuda(cudaGraphLaunch(static_cast<cudaGraphExec_t>(graph_), cudaStreamPerThread));
+  }
+
+  void Cuda::Recording::clear()
+  {
+    if (graph_ != nullptr)
+      cudaGraphExecDestroy(static_cast<cudaGraphExec_t>(graph_)); // called from the destructor
+    graph_ = nullptr;
+  }
 } // namespace softcell

@@ -86,6 +86,7 @@ namespace softcell
   template <class Number>
   void CudaMultigrid<Real, Device>::set_state(const Field<Number> &u)
   {
+    recorded_cycle_.clear();
     std::vector<Number> numbers(u.size());
     u.copy_to(numbers.data());
     std::vector<Real> state(numbers.begin(), numbers.end());
@@ -188,7 +189,7 @@ namespace softcell
   {
     Level &level = *levels_[0];
     level.for_each_entry(StartAction<Real, Number>{level.nodes, x.data(), level.factor(0)});
-    cycle(0);
+    recorded_cycle_.run([&] { cycle(0); });
     for_each_entry<Device>(ConvertAction<Number, Real>{level.x.data(), y.data()}, y.size());
   }
 } // namespace softcell

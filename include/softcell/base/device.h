@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,25 @@ namespace softcell
 
     template <class Kernel>
     static void launch(const Kernel &kernel, std::size_t n_blocks);
+
+    /// Launches that are always the same, which start sooner one after another when they are known
+    /// beforehand.
+    class Recording
+    {
+    public:
+      Recording()                             = default;
+      Recording(const Recording &)            = delete;
+      Recording &operator=(const Recording &) = delete;
+      ~Recording();
+      /// Does the work, which is nothing but launches; from the second time on, as recorded in the
+      /// first.
+      void run(const std::function<void()> &work);
+      /// Forgets what is recorded.
+      void clear();
+
+    private:
+      void *graph_ = nullptr;
+    };
   };
 
   /// The host, which runs kernels block by block and thread by thread with the same arithmetic of
@@ -46,6 +66,15 @@ namespace softcell
 
     template <class Kernel>
     static void launch(const Kernel &kernel, std::size_t n_blocks);
+
+    struct Recording
+    {
+      static void run(const std::function<void()> &work)
+      {
+        work();
+      }
+      static void clear() {}
+    };
   };
 
   /// An array in the memory of a device.

@@ -59,7 +59,7 @@ namespace softcell
   template <class Kernel>
   void Cuda::launch(const Kernel &kernel, const std::size_t n_blocks)
   {
-    run_kernel<<<n_blocks, Kernel::n_threads>>>(kernel);
+    run_kernel<<<n_blocks, Kernel::n_threads, 0, cudaStreamPerThread>>>(kernel);
     check_cuda(cudaGetLastError());
   }
 #endif

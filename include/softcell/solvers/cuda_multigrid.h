@@ -59,7 +59,8 @@ namespace softcell
 
     CardLevels<Real> grids_;
     std::vector<unsigned char> held_;
-    std::vector<std::unique_ptr<Level>> levels_;   // from the finest on
+    std::vector<std::unique_ptr<Level>> levels_; // from the finest on
+    typename Device::Recording recorded_cycle_;
     DeviceArray<int, Device> coarsest_entries_;    // (n)
     DeviceArray<double, Device> coarsest_inverse_; // (n, n)
   };
