@@ -41,14 +41,18 @@ namespace softcell
           v[i].copy_from(field + pack.entry + this->geometry.corners[i], stdx::element_aligned);
       }
 
-      /// Far corners in turn, since what was just stored is slow to load at another place.
+      /// The forces of both ends of the cells' edges along x in one pack of nodes, and the last
+      /// cell's far end by itself: a pack that is loaded at another place than it was just stored
+      /// to would have to wait.
       void add(const Corners<Number> &v, Real *const field) const
       {
-#pragma GCC unroll 8
-        for (const int i : {0, 2, 4, 6, 1, 3, 5, 7})
+#pragma GCC unroll 4
+        for (int i = 0; i < 8; i += 2)
         {
           Real *const entry = field + pack.entry + this->geometry.corners[i];
-          (Number(entry, stdx::element_aligned) + v[i]).copy_to(entry, stdx::element_aligned);
+          (Number(entry, stdx::element_aligned) + (v[i] + this->moved_up(v[i + 1])))
+            .copy_to(entry, stdx::element_aligned);
+          entry[this->W] += v[i + 1][this->W - 1];
         }
       }
 
@@ -203,7 +207,13 @@ namespace softcell
     for_each_point(cells_, material_, u,
                    [&](const auto &law, const auto &weight, const auto &F, const int layer) {
                      n_inverted[layer] += stdx::popcount(!law.is_admissible(determinant(F)));
-                     energies[layer] += stdx::reduce(weight * law.energy(F));
+                     if constexpr (has_costly_pressure<std::decay_t<decltype(law)>>)
+                     {
+                       const auto v = law.volumetric_strain(F, SimdCells<Real>::log1p);
+                       energies[layer] += stdx::reduce(weight * law.energy(F, v));
+                     }
+                     else
+                       energies[layer] += stdx::reduce(weight * law.energy(F));
                    });
     throw_if_inverted(n_inverted);
     return std::accumulate(energies.begin(), energies.end(), 0.);

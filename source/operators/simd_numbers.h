@@ -27,6 +27,18 @@ namespace softcell
     {
       return simd_log1p(x);
     }
+    /// Each lane's value in the next lane, and 0 in the first.
+    static Number moved_up(const Number &x)
+    {
+      using Lanes [[gnu::vector_size(sizeof(Number))]] = Real;
+      using Integer = std::conditional_t<sizeof(Real) == 8, long, int>;
+      using Places [[gnu::vector_size(sizeof(Number))]] = Integer;
+      Places places{};
+#pragma GCC unroll 16
+      for (unsigned int lane = 1; lane < W; ++lane)
+        places[lane] = W + lane - 1;
+      return Number(__builtin_shuffle(Lanes{}, static_cast<Lanes>(x), places));
+    }
     template <class Mask>
     static unsigned int count(const Mask &mask)
     {

@@ -15,11 +15,17 @@ namespace softcell
     using Base = Hyperelastic<Law, Real>;
     using Base::first_piola_stress, Base::lambda, Base::mu;
 
+    /// @param v  the volumetric strain at F.
+    template <class Number>
+    SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F, const Number &v) const
+    {
+      return mu * (trace(green_lagrange_strain(F)) - v) + lambda / 2 * v * v;
+    }
+
     template <class Number>
     SOFTCELL_HOST_DEVICE Number energy(const Matrix3<Number> &F) const
     {
-      const Number v = Law<Real>::volumetric_strain(F);
-      return mu * (trace(green_lagrange_strain(F)) - v) + lambda / 2 * v * v;
+      return energy(F, Law<Real>::volumetric_strain(F));
     }
 
     template <class Number>
@@ -65,38 +71,41 @@ namespace softcell
       return transpose(inverse(F));
     }
 
-    /// dP = mu dF + (mu - lambda ln J) F^-T dF^T F^-T + lambda (F^-T : dF) F^-T.
+    /// dP = mu dF + ((mu - lambda ln J) G dF^T G + lambda (G : dF) G) / J^2, with G = cof F.
     template <class Number>
     struct Linearisation
     {
       Real mu, lambda;
       Number factor; // mu - lambda ln J
-      Matrix3<Number> F_inv_T;
+      Matrix3<Number> G;
+      Number share; // 1 / J^2
 
       template <class Change>
       SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const Matrix3<Change> &dF) const
       {
-        const Matrix3<Change> B = transpose(dF) * F_inv_T; // of which the trace is F^-T : dF
-        Matrix3<Change> C       = factor * B;
-        const Change pressure   = lambda * trace(B);
+        const Matrix3<Change> B = transpose(dF) * G; // of which the trace is G : dF
+        const Number shear = share * factor, volumetric = share * lambda;
+        Matrix3<Change> C     = shear * B;
+        const Change pressure = volumetric * trace(B);
         for (int A = 0; A < 3; ++A)
           C(A, A) += pressure;
-        return mu * dF + F_inv_T * C;
+        return mu * dF + G * C;
       }
 
-      /// With g = dN/dX and its push forward h = F^-T g, row a of dP is
-      /// delta_ab mu g + (mu - lambda ln J) h_a F^-T_b + lambda h_b F^-T_a.
+      /// With g = dN/dX and h = G g / J^2, row a of dP is
+      /// delta_ab mu g + (mu - lambda ln J) h_a G_b + lambda h_b G_a.
       template <class Change>
       SOFTCELL_HOST_DEVICE Matrix3<Change> operator()(const NodalGradient<Change> &dF) const
       {
-        const int b = dF.component;
+        const int b        = dF.component;
+        const Number shear = share * factor, volumetric = share * lambda;
         Matrix3<Change> dP;
-        const Change h_b = lambda * dot(F_inv_T, b, dF.gradient);
+        const Change h_b = volumetric * dot(G, b, dF.gradient);
         for (int a = 0; a < 3; ++a)
         {
-          const Change h_a = factor * dot(F_inv_T, a, dF.gradient);
+          const Change h_a = shear * dot(G, a, dF.gradient);
           for (int A = 0; A < 3; ++A)
-            dP(a, A) = h_a * F_inv_T(b, A) + h_b * F_inv_T(a, A);
+            dP(a, A) = h_a * G(b, A) + h_b * G(a, A);
         }
         for (int A = 0; A < 3; ++A)
           dP(b, A) += mu * dF.gradient[A];
@@ -108,7 +117,9 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
                                                              const Number &pressure) const
     {
-      return {mu, Real(0), mu - pressure, volumetric_gradient(F)};
+      const Matrix3<Number> G = cofactor(F);
+      const Number J          = dot(F, 0, G.entries);
+      return {mu, Real(0), mu - pressure, G, Number(1) / (J * J)};
     }
   };
 } // namespace softcell
