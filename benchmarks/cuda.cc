@@ -375,6 +375,6 @@ int main(int argc, char **argv)
         [=](benchmark::State &state) { multigrid_of_the_host(state, lattice(body, millions)); });
   });
   if (std::ifstream(SOFTCELL_LIVER)) // about 16 000 cells, as many as a frame may have
-    add("multigrid/frame", [](benchmark::State &state) { multigrid(state, liver(29), {1, 1e-2}); });
+    add("multigrid/frame", [](benchmark::State &state) { multigrid(state, liver(31), {1, 1e-2}); });
   benchmark::RunSpecifiedBenchmarks();
 }

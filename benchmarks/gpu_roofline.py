@@ -77,16 +77,16 @@ def occupancy(kernel, card):
     return blocks, blocks * warps / card.warps
 
 
-def bytes_of_bricks(size, keeps_pressure):
+def bytes_of_bricks(size, needs_state, keeps_pressure):
     """Per unknown of a tangent action where all cells are full (three unknowns a cell): u, x and y; the sums of bricks,
     written and read (225 nodes for 128 cells); what is kept at a cell's eight points."""
-    return size * (3 + 2 * 225 / 128 + (8 / 3 if keeps_pressure else 0))
+    return size * ((3 if needs_state else 2) + 2 * 225 / 128 + (8 / 3 if keeps_pressure else 0))
 
 
 def bytes_of_iteration(size):
-    """Per unknown of an iteration of conjugate gradients beside its tangent action: p and Ap; inverse, p, Ap, x and r,
-    and the last two written; inverse, r and p, and this written."""
-    return size * (2 + 5 + 2 + 3 + 1)
+    """Per unknown of an iteration of conjugate gradients with the inverted diagonal, beside its tangent action: inverse
+    and r read, z written; r and z; z and p, and this written; p and Ap; p, Ap, x and r, and the last two written."""
+    return size * (3 + 2 + 3 + 2 + 6)
 
 
 def bytes_of_rows(size, points, nodes):
@@ -126,7 +126,7 @@ def main():
             continue
         real = k.name.split()[0]
         size = {"double": 8, "float": 4}[real]
-        action = bytes_of_bricks(size, "NeoHookean" in k.name)
+        action = bytes_of_bricks(size, "LinearElastic" not in k.name, "NeoHookean" in k.name)
         for name, traffic in ((k.name, action), (f"{k.name}, iteration", action + bytes_of_iteration(size))):
             print(f"| {name} | {k.operations / 3:.0f} | {traffic:.0f} | {k.operations / 3 / traffic:.1f} |", end="")
             for card in CARDS:
