@@ -5,11 +5,6 @@
 
 namespace softcell
 {
-  extern template class CudaElasticity<double, Serial>;
-  extern template class CudaElasticity<float, Serial>;
-  extern template class CudaCG<double, Serial>;
-  extern template class CudaCG<float, Serial>;
-
   template class CudaMultigrid<double, Serial>;
   template class CudaMultigrid<float, Serial>;
   template void CudaMultigrid<double, Serial>::set_state(const DeviceArray<double, Serial> &);

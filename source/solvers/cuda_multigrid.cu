@@ -5,11 +5,6 @@
 
 namespace softcell
 {
-  extern template class CudaElasticity<double, Cuda>;
-  extern template class CudaElasticity<float, Cuda>;
-  extern template class CudaCG<double, Cuda>;
-  extern template class CudaCG<float, Cuda>;
-
   template class CudaMultigrid<double, Cuda>;
   template class CudaMultigrid<float, Cuda>;
   template void CudaMultigrid<double, Cuda>::set_state(const DeviceArray<double, Cuda> &);

@@ -70,4 +70,9 @@ namespace softcell
     Field sums_;                          // (6, bricks, n_corners)
     DeviceArray<int, Device> n_inverted_; // (bricks) points
   };
+
+  extern template class CudaElasticity<double, Cuda>;
+  extern template class CudaElasticity<float, Cuda>;
+  extern template class CudaElasticity<double, Serial>;
+  extern template class CudaElasticity<float, Serial>;
 } // namespace softcell

@@ -71,6 +71,11 @@ namespace softcell
     std::vector<double> history_;
   };
 
+  extern template class CudaCG<double, Cuda>;
+  extern template class CudaCG<float, Cuda>;
+  extern template class CudaCG<double, Serial>;
+  extern template class CudaCG<float, Serial>;
+
   /// The inverse of a matrix' diagonal, the simplest preconditioner.
   template <class Real, class Device>
   class InverseDiagonal
