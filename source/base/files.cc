@@ -20,10 +20,9 @@ namespace softcell
     std::error_code error;
     if (fs::is_directory(file, error))
       throw BadInput(place + " is a folder; name a file in it.");
-    if (!fs::is_regular_file(file, error))
+    if (!fs::exists(file, error))
       throw BadInput(place + ": there is no such file as " +
-                     fs::absolute(file, error).lexically_normal().string() +
-                     "; names count from the folder in which softcell is started.");
+                     fs::absolute(file, error).lexically_normal().string() + ".");
     if (!std::ifstream(file))
       throw BadInput(place + " cannot be opened; check its permissions.");
   }

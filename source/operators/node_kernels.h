@@ -37,10 +37,12 @@ namespace softcell
       {
         const int dx = side & 1, dy = side >> 1 & 1, dz = side >> 2, b = brick.bricks[side];
         if (b >= 0 && (dx == 0 || x == 0) && (dy == 0 || y == 0) && (dz == 0 || z == 0))
+        {
           SOFTCELL_DEVICE_UNROLL
-        for (int k = 0; k < Action::n_values; ++k)
-          values[k] += sums[(k * std::size_t(n_bricks) + b) * Bricks::n_corners + x + 8 * dx +
-                            9 * (y + 4 * dy + 5 * (z + 4 * dz))];
+          for (int k = 0; k < Action::n_values; ++k)
+            values[k] += sums[(k * std::size_t(n_bricks) + b) * Bricks::n_corners + x + 8 * dx +
+                              9 * (y + 4 * dy + 5 * (z + 4 * dz))];
+        }
       }
       action(std::size_t(brick.entry) + x + row * y + plane * z, values);
     }

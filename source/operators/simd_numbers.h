@@ -6,6 +6,8 @@
 
 #include <softcell/mechanics/tensor.h>
 
+#include <utility>
+
 namespace softcell
 {
   template <class Real>
@@ -30,14 +32,7 @@ namespace softcell
     /// Each lane's value in the next lane, and 0 in the first.
     static Number moved_up(const Number &x)
     {
-      using Lanes [[gnu::vector_size(sizeof(Number))]] = Real;
-      using Integer = std::conditional_t<sizeof(Real) == 8, long, int>;
-      using Places [[gnu::vector_size(sizeof(Number))]] = Integer;
-      Places places{};
-#pragma GCC unroll 16
-      for (unsigned int lane = 1; lane < W; ++lane)
-        places[lane] = W + lane - 1;
-      return Number(__builtin_shuffle(Lanes{}, static_cast<Lanes>(x), places));
+      return moved_up(x, std::make_index_sequence<W>());
     }
     template <class Mask>
     static unsigned int count(const Mask &mask)
@@ -50,6 +45,15 @@ namespace softcell
 #pragma GCC unroll 9
       for (int k = 0; k < 9; ++k)
         std::experimental::where(weight == 0, F.entries[k]) = Number(k % 4 == 0 ? 1 : 0);
+    }
+
+  private:
+    template <std::size_t... lane>
+    static Number moved_up(const Number &x, std::index_sequence<lane...> /*lanes*/)
+    {
+      using Lanes [[gnu::vector_size(sizeof(Number))]] = Real;
+      return Number(
+        __builtin_shufflevector(Lanes{}, static_cast<Lanes>(x), (lane == 0 ? 0 : W + lane - 1)...));
     }
   };
 } // namespace softcell

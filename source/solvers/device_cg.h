@@ -158,15 +158,15 @@ namespace softcell
     history_.clear();
     lanczos_.clear();
     double scalars[3]; // p.Ap, r.r, r.z
-    const auto fetch = [&](const double *from, const int n) {
-      Device::copy(scalars, from, n * sizeof(double));
-      for (int k = 0; k < n; ++k)
+    const auto fetch = [&](const double *from, const int begin, const int end) {
+      Device::copy(scalars + begin, from + begin, (end - begin) * sizeof(double));
+      for (int k = begin; k < end; ++k)
         if (!std::isfinite(scalars[k]))
           throw NotConverged("conjugate gradients met a number that is not finite");
     };
     double *now = scalars_.data(), *before = now + 3, rz_before = 0;
     sum_up(StartTerms<Real>{b.data(), x.data(), r_.data()}, now + 1);
-    fetch(now, 2);
+    fetch(now, 1, 2);
     const double bb = scalars[1];
     if (bb == 0)
       return 0;
@@ -182,7 +182,7 @@ namespace softcell
       sum_up(ProductTerms<Real>{p_.data(), z_.data()}, now);
       sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), now, now + 2, is_first},
              now + 1);
-      fetch(now, 3);
+      fetch(now, 0, 3);
       const auto [curvature, rr, rz] = scalars;
       if (curvature <= 0) // A is indefinite
       {

@@ -77,7 +77,7 @@ namespace softcell
     unknowns_.for_each(way_, u_, [](Real &way_i, const Real u_i) { way_i = u_i - way_i; });
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
-    shorten(before + work(external), dt);
+    shorten(external, before, dt);
     return step_;
   }
 
@@ -102,17 +102,20 @@ namespace softcell
     return sum;
   }
 
-  /// Halves the way, also that of held entries, until there is no more energy than was put in. The
-  /// energy of a law that stiffens may rise above that of its linearisation.
+  /// Halves the way, also that of held entries, until there is hardly more energy than there was
+  /// before and than was put in on the way. The energy of a law that stiffens may rise above that
+  /// of its linearisation.
   template <class Real>
-  void LatticeMotion<Real>::shorten(const double available, const double dt)
+  void LatticeMotion<Real>::shorten(const LatticeVector<Real> &external,
+                                    const double before,
+                                    const double dt)
   {
     constexpr unsigned int most = 5;
     constexpr double margin     = 0.05;
     for (unsigned int n = 0; n < most; ++n)
     {
       has_strain_ = false;
-      if ((1 - margin) * (strain() + kinetic_energy()) <= available)
+      if ((1 - margin) * (strain() + kinetic_energy()) <= before + work(external))
         return;
       unknowns_.for_each(way_, way_, [](Real &way_i, Real) { way_i *= Real(0.5); });
       add(u_, -1, way_);

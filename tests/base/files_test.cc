@@ -55,7 +55,7 @@ TEST(Files, NamesWhatCannotBeReadByItsWholePath)
   std::filesystem::remove(file);
   EXPECT_EQ(
     complaint("./" + file)
-      .find("Section/Entry = ./" + file + ": there is no such file as " + here + "/" + file + ";"),
+      .find("Section/Entry = ./" + file + ": there is no such file as " + here + "/" + file + "."),
     0u);
   EXPECT_EQ(complaint("..").find("Section/Entry = .. is a folder"), 0u);
 }

@@ -168,4 +168,25 @@ namespace
                  NotConverged);
     EXPECT_THROW((Diagonal<TypeParam>{{1, NAN}}.solve({1, 1}, x)), NotConverged);
   }
+
+  TYPED_TEST(CudaCGTest, ForgetsASolveThatFailed)
+  {
+    const std::vector<double> ones(2, 1.);
+    DeviceArray<double, TypeParam> b(ones), x(2);
+    CudaCG<double, TypeParam> cg(2);
+    unsigned int fails_at = 2, products = 0;
+    const auto solve = [&] {
+      return cg.solve(
+        [&](auto &y, const auto &p) {
+          std::vector<double> values = on_host(p);
+          values[1] *= ++products == fails_at ? NAN : 2;
+          y.copy_from(values.data());
+        },
+        [](auto &z, const auto &r) { z.copy_from(r); }, x, b, 1e-12, 5);
+    };
+    EXPECT_THROW(solve(), NotConverged);
+    fails_at = 0;
+    EXPECT_EQ(solve(), 2U);
+    EXPECT_NEAR(on_host(x)[1], 0.5, 1e-12);
+  }
 } // namespace

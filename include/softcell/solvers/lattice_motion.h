@@ -81,8 +81,9 @@ namespace softcell
     {
       return v_;
     }
-    /// The force that held the held entries in the last step, without these nodes' own inertia.
-    /// Elsewhere it is what the linear system is in error. Units: N
+    /// The force that held the held entries in the last step, without these nodes' own inertia; of
+    /// a step that was shortened, what its whole way would have taken. Elsewhere it is what the
+    /// linear system is in error. Units: N
     const LatticeVector<Real> &reaction() const
     {
       return reaction_;
@@ -105,7 +106,7 @@ namespace softcell
     void combine(Real stiffness, Real mass, bool has_time);
     double strain();
     double work(const LatticeVector<Real> &external);
-    void shorten(double available, double dt);
+    void shorten(const LatticeVector<Real> &external, double before, double dt);
     void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
     void add_start(const LatticeVector<Real> &direction);
     void prepare_starts(const LatticeVector<Real> &w);
