@@ -33,7 +33,7 @@ namespace softcell
         A_starts_(2, u_),
         multigrid_(cells, material.invertible(), held, 1)
   {
-    constexpr double light = 0.01;
+    constexpr double light = 0.01; // of the largest mass; see prepare_starts()
     tangent_.supports()    = std::move(supports);
     const Real *const m    = tangent_.masses().component(0);
     const std::size_t n    = cells.nodes.size();
