@@ -41,7 +41,17 @@ namespace softcell
       cudaGraph_t graph    = nullptr;
       cudaGraphExec_t exec = nullptr;
       check_cuda(cudaStreamBeginCapture(cudaStreamPerThread, cudaStreamCaptureModeThreadLocal));
-      work();
+      try
+      {
+        work();
+      }
+      catch (...) // whatever it is, the stream must not stay in capture
+      {
+        if (cudaStreamEndCapture(cudaStreamPerThread, &graph) == cudaSuccess)
+          cudaGraphDestroy(graph);
+        cudaGetLastError(); // forgets that of the capture
+        throw;
+      }
       check_cuda(cudaStreamEndCapture(cudaStreamPerThread, &graph));
       check_cuda(cudaGraphInstantiate(&exec, graph, 0));
       check_cuda(cudaGraphDestroy(graph));

@@ -7,15 +7,15 @@
 #include <softcell/base/device_launch.h>
 #include <softcell/base/exceptions.h>
 #include <softcell/solvers/cuda_cg.h>
+#include <softcell/solvers/lanczos.h>
 
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace softcell
 {
   template <class Real>
-  struct InvertTerms
+  struct ReciprocalAction
   {
     const Real *diagonal;
     Real *inverse;
@@ -29,7 +29,7 @@ namespace softcell
   };
 
   template <class Real>
-  struct ScaleTerms
+  struct ScaleAction
   {
     const Real *factors, *x;
     Real *y;
@@ -40,21 +40,37 @@ namespace softcell
     }
   };
 
+  /// p = z + beta p, or 0 if r.z, with an M that is not positive, is not: then p.Ap tells the host.
+  template <class Real>
+  struct DirectionAction
+  {
+    const Real *z;
+    Real *p;
+    const double *rz; // now, and before it that of the last iteration
+    bool is_first;
+
+    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i) const
+    {
+      if (*rz <= 0)
+        p[i] = 0;
+      else
+        p[i] = is_first ? z[i] : z[i] + Real(rz[0] / rz[-1]) * p[i];
+    }
+  };
+
   /// x = 0, r = b; r.r.
   template <class Real>
   struct StartTerms
   {
-    static constexpr int n_sums = 1;
-
     const Real *b;
     Real *x, *r;
 
-    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i, double *const sums) const
+    SOFTCELL_HOST_DEVICE double operator()(const std::size_t i) const
     {
       const Real r_i = b[i];
       x[i]           = 0;
       r[i]           = r_i;
-      sums[0] += double(r_i) * r_i;
+      return double(r_i) * r_i;
     }
   };
 
@@ -62,13 +78,11 @@ namespace softcell
   template <class Real>
   struct ProductTerms
   {
-    static constexpr int n_sums = 1;
-
     const Real *a, *b;
 
-    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i, double *const sums) const
+    SOFTCELL_HOST_DEVICE double operator()(const std::size_t i) const
     {
-      sums[0] += double(a[i]) * b[i];
+      return double(a[i]) * b[i];
     }
   };
 
@@ -76,43 +90,36 @@ namespace softcell
   template <class Real>
   struct StepTerms
   {
-    static constexpr int n_sums = 1;
-
     const Real *p, *Ap;
     Real *x, *r;
-    const double *curvature, *rz;
+    const double *pAp, *rz;
     bool is_first;
 
-    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i, double *const sums) const
+    SOFTCELL_HOST_DEVICE double operator()(const std::size_t i) const
     {
-      const Real alpha = step(*curvature, *rz);
+      const Real alpha = length(*pAp);
       const Real r_i   = r[i] - alpha * Ap[i];
       x[i] += alpha * p[i];
       r[i] = r_i;
-      sums[0] += double(r_i) * r_i;
+      return double(r_i) * r_i;
     }
 
     /// At negative curvature 0, but in the first iteration as long as if it had the other sign.
-    SOFTCELL_HOST_DEVICE double step(const double pAp, const double rz_now) const
+    SOFTCELL_HOST_DEVICE double length(const double curvature) const
     {
-      if (pAp > 0)
-        return rz_now / pAp;
-      return is_first ? (pAp < 0 ? -rz_now / pAp : 1) : 0;
+      if (curvature > 0)
+        return *rz / curvature;
+      return is_first ? (curvature < 0 ? -*rz / curvature : 1) : 0;
     }
   };
 
-  /// p = z + beta p
-  template <class Real>
-  struct DirectionTerms
+  struct BlockTerms
   {
-    const Real *z;
-    Real *p;
-    const double *rz, *rz_before;
-    bool is_first;
+    const double *sums;
 
-    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i) const
+    SOFTCELL_HOST_DEVICE double operator()(const std::size_t i) const
     {
-      p[i] = is_first ? z[i] : z[i] + Real(*rz / *rz_before) * p[i];
+      return sums[i];
     }
   };
 
@@ -120,31 +127,41 @@ namespace softcell
   InverseDiagonal<Real, Device>::InverseDiagonal(const Field &diagonal, const std::size_t size)
       : inverse_(size)
   {
-    for_each_entry<Device>(InvertTerms<Real>{diagonal.data(), inverse_.data()}, size);
+    for_each_entry<Device>(ReciprocalAction<Real>{diagonal.data(), inverse_.data()}, size);
   }
 
   template <class Real, class Device>
   void InverseDiagonal<Real, Device>::vmult(Field &y, const Field &x) const
   {
-    for_each_entry<Device>(ScaleTerms<Real>{inverse_.data(), x.data(), y.data()}, inverse_.size());
+    for_each_entry<Device>(ScaleAction<Real>{inverse_.data(), x.data(), y.data()}, inverse_.size());
   }
 
   constexpr int n_sum_blocks = 256;
 
   template <class Real, class Device>
   CudaCG<Real, Device>::CudaCG(const std::size_t size)
-      : r_(size), p_(size), z_(size), block_sums_(n_sum_blocks), scalars_(6)
+      : r_(size), p_(size), z_(size), block_sums_(n_sum_blocks), scalars_(2)
   {
   }
 
   template <class Real, class Device>
   template <class Terms>
-  void CudaCG<Real, Device>::sum_up(const Terms &terms, double *const sums)
+  void CudaCG<Real, Device>::sum_up(const Terms &terms, double *const sum)
   {
     Device::launch(SumKernel<Terms>{terms, r_.size(), n_sum_blocks, block_sums_.data()},
                    n_sum_blocks);
-    using Blocks = BlockTerms<Terms::n_sums>;
-    Device::launch(SumKernel<Blocks>{{block_sums_.data(), n_sum_blocks}, n_sum_blocks, 1, sums}, 1);
+    Device::launch(SumKernel<BlockTerms>{{block_sums_.data()}, n_sum_blocks, 1, sum}, 1);
+  }
+
+  template <class Device>
+  std::vector<double> finite_numbers(const double *const from, const std::size_t n)
+  {
+    std::vector<double> numbers(n);
+    Device::copy(numbers.data(), from, n * sizeof(double));
+    for (const double number : numbers)
+      if (!std::isfinite(number))
+        throw NotConverged("conjugate gradients met a number that is not finite");
+    return numbers;
   }
 
   template <class Real, class Device>
@@ -156,46 +173,49 @@ namespace softcell
                                                             const unsigned int max_iterations)
   {
     history_.clear();
-    lanczos_.clear();
-    double scalars[3]; // p.Ap, r.r, r.z
-    const auto fetch = [&](const double *from, const int begin, const int end) {
-      Device::copy(scalars + begin, from + begin, (end - begin) * sizeof(double));
-      for (int k = begin; k < end; ++k)
-        if (!std::isfinite(scalars[k]))
-          throw NotConverged("conjugate gradients met a number that is not finite");
-    };
-    double *now = scalars_.data(), *before = now + 3, rz_before = 0;
-    sum_up(StartTerms<Real>{b.data(), x.data(), r_.data()}, now + 1);
-    fetch(now, 1, 2);
-    const double bb = scalars[1];
+    curvatures_.clear();
+    if (rz_.size() < max_iterations)
+      rz_ = DeviceArray<double, Device>(max_iterations);
+    double *const pAp = scalars_.data(), *const rr = pAp + 1;
+    sum_up(StartTerms<Real>{b.data(), x.data(), r_.data()}, rr);
+    const double bb = finite_numbers<Device>(rr, 1)[0];
     if (bb == 0)
       return 0;
     for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
     {
       const bool is_first = iteration == 1;
-      std::swap(now, before);
+      double *const rz    = rz_.data() + iteration - 1;
       M(z_, r_);
-      sum_up(ProductTerms<Real>{r_.data(), z_.data()}, now + 2);
-      for_each_entry<Device>(
-        DirectionTerms<Real>{z_.data(), p_.data(), now + 2, before + 2, is_first}, p_.size());
+      sum_up(ProductTerms<Real>{r_.data(), z_.data()}, rz);
+      for_each_entry<Device>(DirectionAction<Real>{z_.data(), p_.data(), rz, is_first}, p_.size());
       A(z_, p_);
-      sum_up(ProductTerms<Real>{p_.data(), z_.data()}, now);
-      sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), now, now + 2, is_first},
-             now + 1);
-      fetch(now, 0, 3);
-      const auto [curvature, rr, rz] = scalars;
-      if (curvature <= 0) // A is indefinite
+      sum_up(ProductTerms<Real>{p_.data(), z_.data()}, pAp);
+      sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), pAp, rz, is_first}, rr);
+      const std::vector<double> scalars = finite_numbers<Device>(scalars_.data(), 2);
+      if (scalars[0] <= 0) // A is indefinite, or M
       {
-        lanczos_.clear();
+        if (is_first && finite_numbers<Device>(rz, 1)[0] <= 0)
+          throw NotConverged("conjugate gradients cannot start: the preconditioner is not "
+                             "positive definite");
         return iteration;
       }
-      lanczos_.add(curvature / rz, is_first ? 0 : rz / rz_before);
-      rz_before = rz;
-      history_.push_back(std::sqrt(rr / bb));
+      curvatures_.push_back(scalars[0]);
+      history_.push_back(std::sqrt(scalars[1] / bb));
       if (history_.back() <= tolerance)
         return iteration;
     }
     return {};
+  }
+
+  template <class Real, class Device>
+  double CudaCG<Real, Device>::largest_eigenvalue() const
+  {
+    const std::size_t n          = curvatures_.size();
+    const std::vector<double> rz = finite_numbers<Device>(rz_.data(), n);
+    LanczosMatrix lanczos;
+    for (std::size_t i = 0; i < n; ++i)
+      lanczos.add(curvatures_[i] / rz[i], i == 0 ? 0 : rz[i] / rz[i - 1]);
+    return lanczos.extreme_eigenvalues().second;
   }
 
   template <class Real, class Device>

@@ -115,6 +115,17 @@ namespace
     EXPECT_LT(rough.linfty_norm(), 1e-3 * expected.linfty_norm());
   }
 
+  /// y = factors * x
+  auto times(const std::vector<double> &factors)
+  {
+    return [factors](auto &y, const auto &x) {
+      std::vector<double> values = on_host(x);
+      for (std::size_t i = 0; i < factors.size(); ++i)
+        values[i] *= factors[i];
+      y.copy_from(values.data());
+    };
+  }
+
   /// A x = entries * x
   template <class Device>
   struct Diagonal
@@ -127,13 +138,8 @@ namespace
       DeviceArray<double, Device> device_b(b), device_x(n);
       CudaCG<double, Device> cg(n);
       const unsigned int iterations = cg.solve(
-        [&](auto &y, const auto &p) {
-          std::vector<double> values = on_host(p);
-          for (std::size_t i = 0; i < n; ++i)
-            values[i] *= entries[i];
-          y.copy_from(values.data());
-        },
-        [](auto &z, const auto &r) { z.copy_from(r); }, device_x, device_b, 1e-12, 5);
+        times(entries), [](auto &z, const auto &r) { z.copy_from(r); }, device_x, device_b, 1e-12,
+        5);
       x.resize(n);
       device_x.copy_to(x.data());
       return iterations;
@@ -188,5 +194,47 @@ namespace
     fails_at = 0;
     EXPECT_EQ(solve(), 2U);
     EXPECT_NEAR(on_host(x)[1], 0.5, 1e-12);
+  }
+
+  // A = diag(3, -1), M = diag(1, -1) and b = (2, 1): r.z is 3 at first, and p = (2, -1), A p = (6,
+  // 1), so x = 3 / 11 p and r = (4, 8) / 11, whose r.z is negative.
+  TYPED_TEST(CudaCGTest, StopsWhereThePreconditionerIsIndefinite)
+  {
+    CudaCG<double, TypeParam> cg(2);
+    DeviceArray<double, TypeParam> x(2), b(std::vector<double>{2, 1});
+    EXPECT_EQ(cg.solve(times({3, -1}), times({1, -1}), x, b, 1e-12, 5), 2U);
+    EXPECT_DOUBLE_EQ(on_host(x)[0], 6. / 11);
+    EXPECT_DOUBLE_EQ(on_host(x)[1], -3. / 11);
+    EXPECT_DOUBLE_EQ(cg.largest_eigenvalue(), 11. / 3); // p.Ap / r.z
+    b.copy_from(std::vector<double>{1, 2}.data());
+    EXPECT_THROW(cg.solve(times({3, -1}), times({1, -1}), x, b, 1e-12, 5), NotConverged);
+  }
+
+  TYPED_TEST(CudaCGTest, RecordsAnewAfterAnError)
+  {
+    const DeviceArray<double, TypeParam> two(std::vector<double>{2}), x(std::vector<double>{3});
+    DeviceArray<double, TypeParam> y(1);
+    const InverseDiagonal<double, TypeParam> half(two, 1);
+    typename TypeParam::Recording recording;
+    const auto fail = [&] {
+      half.vmult(y, x);
+      throw std::runtime_error("no more");
+    };
+    EXPECT_THROW(recording.run(fail), std::runtime_error);
+    for (unsigned int run = 0; run < 2; ++run)
+    {
+      y.copy_from(x);
+      recording.run([&] { half.vmult(y, x); });
+      EXPECT_EQ(on_host(y)[0], 1.5);
+    }
+  }
+
+  // After as many iterations as there are eigenvalues the tridiagonal matrix has all of them.
+  TYPED_TEST(CudaCGTest, KnowsTheLargestEigenvalue)
+  {
+    CudaCG<double, TypeParam> cg(4);
+    DeviceArray<double, TypeParam> x(4), b(std::vector<double>{1, 2, 3, 4});
+    EXPECT_EQ(cg.solve(times({1, 6, 2, 4}), times({1, 0.5, 2, 0.5}), x, b, 1e-12, 5), 4U);
+    EXPECT_NEAR(cg.largest_eigenvalue(), 4, 1e-10);
   }
 } // namespace

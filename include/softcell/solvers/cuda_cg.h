@@ -3,7 +3,6 @@
 #pragma once
 
 #include <softcell/base/device.h>
-#include <softcell/solvers/lanczos.h>
 
 #include <functional>
 #include <optional>
@@ -14,10 +13,10 @@ namespace softcell
   /// Preconditioned conjugate gradients on a device: Cuda, or Serial, which runs the same kernels
   /// on the host.
   ///
-  /// Vectors and step lengths stay on the device. The host gets three scalars in each iteration,
-  /// p.Ap, r.r and r.z, and decides by the first two whether to go on. Products of vectors are sums
-  /// of double precision in a fixed order: those of 256 blocks, then one block over these. So
-  /// results are always the same. Source: Magnoux algorithm 2.
+  /// Vectors and step lengths stay on the device. The host gets two scalars in each iteration, p.Ap
+  /// and r.r, and decides by them whether to go on. Products of vectors are sums of double
+  /// precision in a fixed order: those of 256 blocks, then one block over these. So results are
+  /// always the same. Source: Magnoux algorithm 2.
   template <class Real, class Device>
   class CudaCG
   {
@@ -28,12 +27,12 @@ namespace softcell
 
     explicit CudaCG(std::size_t size);
 
-    /// Solves A x = b from x = 0 and returns the iterations. At negative curvature it stops with
-    /// the x so far, as LinearSolver does.
+    /// Solves A x = b from x = 0 and returns the iterations. At negative curvature, or an r.z that
+    /// an indefinite M makes negative, it stops with the x so far, as LinearSolver does.
     /// @param M  near to the inverse of A.
     /// @param b  0 in unknowns that are not free, as all that A and M give.
     /// @param tolerance  of |b - A x| / |b|.
-    /// @throws NotConverged, also where a number is no longer finite
+    /// @throws NotConverged, also where a number is no longer finite or r.z is not positive at once
     unsigned int solve(const Operator &A,
                        const Operator &M,
                        Field &x,
@@ -54,20 +53,18 @@ namespace softcell
     {
       return history_;
     }
-    /// Of M A, nearly; NaN after negative curvature.
-    double largest_eigenvalue() const
-    {
-      return lanczos_.extreme_eigenvalues().second;
-    }
+    /// Of M A, as far as the iterations of positive curvature have seen; NaN without any.
+    double largest_eigenvalue() const;
 
   private:
     template <class Terms>
-    void sum_up(const Terms &terms, double *sums);
+    void sum_up(const Terms &terms, double *sum);
 
     Field r_, p_, z_;                        // the last one for A p as well
     DeviceArray<double, Device> block_sums_; // (blocks)
-    DeviceArray<double, Device> scalars_;    // (2, 3) p.Ap, r.r, r.z of even and odd iterations
-    LanczosMatrix lanczos_;
+    DeviceArray<double, Device> scalars_;    // p.Ap, r.r
+    DeviceArray<double, Device> rz_;         // r.z of each iteration
+    std::vector<double> curvatures_;         // p.Ap of each
     std::vector<double> history_;
   };
 
