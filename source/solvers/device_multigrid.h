@@ -6,6 +6,7 @@
 #include "entry_kernels.h"
 #include "multigrid_kernels.h"
 
+#include <softcell/base/exceptions.h>
 #include <softcell/solvers/cuda_multigrid.h>
 
 namespace softcell
@@ -125,7 +126,10 @@ namespace softcell
       level.for_each_entry(PreconditionAction<Real>{nodes});
     };
     level.cg.iterate(K, D, level.d, level.rough_field, 0, n_steps);
-    level.largest_eigenvalue = margin * level.cg.largest_eigenvalue();
+    const double largest = level.cg.largest_eigenvalue();
+    if (!(largest > 0))
+      throw NotConverged("geometric multigrid met a grid whose tangent is not positive definite");
+    level.largest_eigenvalue = margin * largest;
   }
 
   template <class Real, class Device>
@@ -149,16 +153,13 @@ namespace softcell
     coarsest_inverse_.copy_from(symmetric_inverse(matrix).data());
   }
 
-  /// Adds to x what lessens r = b - K x. The first d is there.
+  /// Adds to x what lessens r = b - K x, but for the last d. The first d is there.
   template <class Real, class Device>
   void CudaMultigrid<Real, Device>::smooth(Level &level)
   {
-    for (unsigned int k = 1; k <= level.degree; ++k)
-    {
-      const bool is_last = k == level.degree;
-      level.tangent.vmult(level.d, SmoothAction<Real>{level.nodes, is_last ? 0 : level.share(k),
-                                                      is_last ? 0 : level.factor(k)});
-    }
+    for (unsigned int k = 1; k < level.degree; ++k)
+      level.tangent.vmult(level.d,
+                          SmoothAction<Real>{level.nodes, level.share(k), level.factor(k)});
   }
 
   /// Adds to x of a level what lessens its r. The smoother's first d is there.
@@ -176,11 +177,14 @@ namespace softcell
     }
     const Level &coarse = *levels_[l + 1];
     smooth(level);
+    level.tangent.vmult(level.d, SmoothAction<Real>{level.nodes, 0, 0});
     coarse.for_each_entry(RestrictAction<Real>{coarse.nodes, level.nodes, coarse.factor(0)});
     cycle(l + 1);
     level.for_each_entry(InterpolateAction<Real>{level.nodes, coarse.nodes});
     level.tangent.vmult(level.d, SmoothAction<Real>{level.nodes, 0, level.factor(0)});
     smooth(level);
+    softcell::for_each_entry<Device>(AddAction<Real>{level.d.data(), level.x.data()},
+                                     level.x.size()); // r is no longer needed
   }
 
   template <class Real, class Device>

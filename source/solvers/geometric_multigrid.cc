@@ -156,12 +156,17 @@ namespace softcell
       unknowns.for_each(p, level.d, [&](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
       level.tangent.vmult(level.Kd, p);
       const double curvature = unknowns.dot(p, level.Kd) / rz;
+      if (!(curvature > 0))
+        break;
       unknowns.for_each(level.r, level.Kd,
                         [&](Real &r_i, const Real Kp_i) { r_i -= Kp_i / Real(curvature); });
       lanczos.add(curvature, share);
       rz_before = rz;
     }
-    level.largest_eigenvalue = margin * lanczos.extreme_eigenvalues().second;
+    const double largest = lanczos.extreme_eigenvalues().second;
+    if (!(largest > 0))
+      throw NotConverged("geometric multigrid met a grid whose tangent is not positive definite");
+    level.largest_eigenvalue = margin * largest;
   }
 
   template <class Real>

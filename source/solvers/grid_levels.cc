@@ -39,13 +39,12 @@ namespace softcell
   }
 
   template <class Real>
-  LatticeVector<Real> rough_field(const LatticeUnknowns &unknowns)
+  LatticeVector<Real> rough_field(const LatticeUnknowns &unknowns, unsigned int seed)
   {
     LatticeVector<Real> field(unknowns.nodes());
-    unsigned int random = 1;
     for (const std::size_t entry : unknowns.free_entries())
       field.entries()[entry] =
-        Real(random = 1664525 * random + 1013904223) / Real(4294967296.) - Real(0.5);
+        Real(seed = 1664525 * seed + 1013904223) / Real(4294967296.) - Real(0.5);
     return field;
   }
 
@@ -57,6 +56,6 @@ namespace softcell
                                                     const LatticeVector<float> &,
                                                     const LatticeUnknowns &,
                                                     const Direction &);
-  template LatticeVector<double> rough_field(const LatticeUnknowns &);
-  template LatticeVector<float> rough_field(const LatticeUnknowns &);
+  template LatticeVector<double> rough_field(const LatticeUnknowns &, unsigned int);
+  template LatticeVector<float> rough_field(const LatticeUnknowns &, unsigned int);
 } // namespace softcell

@@ -191,6 +191,19 @@ namespace softcell
     }
   };
 
+  /// x += d
+  template <class Real>
+  struct AddAction
+  {
+    const Real *d;
+    Real *x;
+
+    SOFTCELL_HOST_DEVICE void operator()(const std::size_t i) const
+    {
+      x[i] += d[i];
+    }
+  };
+
   /// Inverts diagonal blocks.
   template <class Real>
   struct InvertAction

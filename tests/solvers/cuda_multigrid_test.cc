@@ -3,6 +3,7 @@
 
 #include <softcell/solvers/cuda_multigrid.h>
 #include <softcell/solvers/geometric_multigrid.h>
+#include <softcell/solvers/grid_levels.h>
 #include <softcell/solvers/matrix_free_solver.h>
 
 #include "../devices.h"
@@ -28,7 +29,7 @@ namespace
     CudaMultigrid<Real, Device> device(*body.cells, material, body.held);
     LatticeVector<Real> state(body.cells->nodes), y(body.cells->nodes);
     copy(u, body.cells->entries, state);
-    const auto x = random_field<Real>(host.unknowns(), 3);
+    const auto x = rough_field<Real>(host.unknowns(), 3);
     DeviceArray<Real, Device> device_x(x.entries().size()), device_y(device_x.size());
     device.set_state(device_x);
     device.vmult(device_y, device_x); // what is kept from this must not stay

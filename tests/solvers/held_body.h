@@ -60,13 +60,4 @@ namespace softcell
     std::vector<unsigned int> constrained;
     std::vector<std::size_t> held;
   };
-
-  template <class Real>
-  LatticeVector<Real> random_field(const LatticeUnknowns &unknowns, unsigned int seed)
-  {
-    LatticeVector<Real> x(unknowns.nodes());
-    for (const std::size_t entry : unknowns.free_entries())
-      x.entries()[entry] = (seed = 1664525 * seed + 1013904223) / 4294967296. - 0.5;
-    return x;
-  }
 } // namespace softcell

@@ -28,7 +28,8 @@ namespace softcell
                                           const LatticeUnknowns &coarse,
                                           const Direction &coarse_spacing);
 
-  /// Something with a share in every eigenvector of an operator.
+  /// Numbers between -1/2 and 1/2 that look random: with a share in every eigenvector of an
+  /// operator.
   template <class Real>
-  LatticeVector<Real> rough_field(const LatticeUnknowns &unknowns);
+  LatticeVector<Real> rough_field(const LatticeUnknowns &unknowns, unsigned int seed = 1);
 } // namespace softcell
