@@ -231,6 +231,24 @@ namespace
       1e-12 * E);
   }
 
+  // P = F S, with shear. F1 and F2 are far from where the invertible law departs from the other.
+  TEST(Laws, StressesAreThoseOfTheRightCauchyGreenTensor)
+  {
+    const Matrix3<double> I = identity<double>();
+    for (const Matrix3<double> &F : {F1, F2})
+    {
+      const Matrix3<double> C = transpose(F) * F, C_inverse = inverse(C);
+      const double log_J           = 0.5 * std::log(determinant(C));
+      const Matrix3<double> S      = mu * (I - C_inverse) + lambda * log_J * C_inverse,
+                            strain = 0.5 * (C - I),
+                            S_of_E = lambda * trace(strain) * I + 2 * mu * strain;
+      expect_near((NeoHookean<>{lambda, mu}.first_piola_stress(F)), F * S, 1e-12 * E);
+      expect_near((InvertibleNeoHookean<>{lambda, mu}.first_piola_stress(F)), F * S, 1e-12 * E);
+      expect_near((SaintVenantKirchhoff<>{lambda, mu}.first_piola_stress(F)), F * S_of_E,
+                  1e-12 * E);
+    }
+  }
+
   TEST(Laws, LinearElasticityAcceptsAnyNumberButNotNaN)
   {
     EXPECT_TRUE(LinearElastic<>::is_admissible(-1.));
