@@ -41,6 +41,7 @@ namespace softcell
                                                        "time_steps",
                                                        "slowest_step_ms",
                                                        "late_steps",
+                                                       "shortened_steps",
                                                        "kinetic_energy",
                                                        "most_linear_iterations",
                                                        "cell_size",

@@ -113,7 +113,7 @@ namespace softcell
     std::string frames_head(const std::map<std::string, Direction> &forces)
     {
       std::string head =
-        "time,step_ms,linear_iterations,linear_residual,kinetic_energy,strain_energy";
+        "time,step_ms,linear_iterations,linear_residual,way,kinetic_energy,strain_energy";
       for (const auto &[region, force] : forces)
         head += ',' + region + "_fx," + region + "_fy," + region + "_fz";
       return head + '\n';
@@ -207,9 +207,10 @@ namespace softcell
       motion_.slowest_ms     = std::max(motion_.slowest_ms, ms);
       motion_.kinetic_energy = motion.kinetic_energy();
       motion_.n_late += dynamics.frame_budget > 0 && ms > dynamics.frame_budget;
+      motion_.n_shortened += step.way < 1;
       table << (frame == 1 ? frames_head(motion_.forces) : "") << t << ',' << ms << ','
-            << step.iterations << ',' << step.residual << ',' << motion_.kinetic_energy << ','
-            << motion.strain_energy();
+            << step.iterations << ',' << step.residual << ',' << step.way << ','
+            << motion_.kinetic_energy << ',' << motion.strain_energy();
       for (const auto &[region, force] : motion_.forces)
         table << ',' << force[0] << ',' << force[1] << ',' << force[2];
       table << '\n';
@@ -236,6 +237,10 @@ namespace softcell
          << history_.linear_iterations << " linear iterations, the slowest step took "
          << std::setprecision(3) << motion_.slowest_ms << " ms";
     console_.say(text.str());
+    if (motion_.n_shortened > 0)
+      warn({std::to_string(motion_.n_shortened) + " of " + std::to_string(motion_.n_steps) +
+            " steps went only a part of their way, as the body would have gained energy (column "
+            "way of frames.csv); give more Dynamics/Steps per second or a slower motion."});
     if (motion_.n_late == 0)
       return;
     std::ostringstream warning;

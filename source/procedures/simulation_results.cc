@@ -100,6 +100,7 @@ namespace softcell
     row.set("slowest_step_ms", motion_.slowest_ms);
     if (parameters_.dynamics.frame_budget > 0)
       row.set("late_steps", motion_.n_late);
+    row.set("shortened_steps", motion_.n_shortened);
     row.set("kinetic_energy", motion_.kinetic_energy);
   }
 

@@ -56,7 +56,8 @@ namespace softcell
                                const LatticeVector<Real> &imposed,
                                const Effort &effort)
   {
-    double h = dt;
+    double h    = dt;
+    auto solved = Clock::now();
     EquationOfMotion<LatticeVector<Real>> motion;
     motion.mass_damping      = parameters_.mass_damping;
     motion.stiffness_damping = parameters_.stiffness_damping;
@@ -68,6 +69,7 @@ namespace softcell
       r_ = b;
       combine(Real(stiffness), Real(mass), effort.deadline == Clock::time_point::max());
       solve(effort, w);
+      solved = Clock::now();
     };
     for (const std::size_t entry : held_) // as fast as they have to be
       v_.entries()[entry] = (imposed.entries()[entry] - u_.entries()[entry]) / Real(dt);
@@ -78,6 +80,9 @@ namespace softcell
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
     shorten(external, before, dt);
+    if (step_.way < 1)
+      take_back((1 / step_.way - 1) / (dt * h));
+    after_solve_ = Clock::now() - solved;
     return step_;
   }
 
@@ -119,9 +124,23 @@ namespace softcell
         return;
       unknowns_.for_each(way_, way_, [](Real &way_i, Real) { way_i *= Real(0.5); });
       add(u_, -1, way_);
+      step_.way *= 0.5;
       unknowns_.for_each(v_, way_, [dt](Real &v_i, const Real way_i) { v_i = way_i / Real(dt); });
     }
     has_strain_ = false;
+  }
+
+  /// Takes from the reaction what the linear system has for a multiple of the way, but for inertia.
+  /// Units: 1/s^2
+  template <class Real>
+  void LatticeMotion<Real>::take_back(const double multiple)
+  {
+    tangent_.product(Ap_, way_);
+    const Real *const m = tangent_.masses().component(0);
+    const std::size_t n = u_.lattice().size();
+    for (const std::size_t entry : held_)
+      reaction_.entries()[entry] -=
+        Real(multiple) * (Ap_.entries()[entry] - m[entry % n] * way_.entries()[entry]);
   }
 
   template <class Real>
@@ -268,7 +287,7 @@ namespace softcell
     const auto is_time = [&] {
       const auto before = begin; // of the last one
       begin             = Clock::now();
-      return step.iterations == 0 || effort.deadline - begin > begin - before;
+      return step.iterations == 0 || effort.deadline - after_solve_ - begin > begin - before;
     };
     while (step.iterations < effort.max_iterations && is_time())
     {

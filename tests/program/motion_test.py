@@ -24,7 +24,8 @@ def dynamics(folder):
                                  ("kinetic_energy", last["kinetic_energy"]), ("top_fy", last["top_fy"]),
                                  ("strain_energy", last["strain_energy"]),
                                  ("slowest_step_ms", max(float(frame["step_ms"]) for frame in frames)),
-                                 ("linear_iterations", sum(int(frame["linear_iterations"]) for frame in frames))):
+                                 ("linear_iterations", sum(int(frame["linear_iterations"]) for frame in frames)),
+                                 ("shortened_steps", sum(float(frame["way"]) < 1 for frame in frames))):
             # frames.csv has nine digits; single precision, with a budget, six
             check(abs(float(row[column]) - float(expected)) <= 1e-5 * abs(float(expected)),
                   f"{to}: {column} is {row[column]} in results.csv and {expected} in frames.csv")
@@ -47,3 +48,8 @@ def dynamics(folder):
     row, out = run("late", *motion, "Dynamics/Frame budget = 1e-3", "Dynamics/End time = 0.1")
     check(row["late_steps"] == "6" and "6 of 6 steps took longer than Dynamics/Frame budget" in out,
           f"late steps: {row['late_steps']}: {out}")
+    (folder / "tool.csv").write_text("t,x,y,z\n0,0,0,0\n0.01,0,0,-0.9\n0.1,0,0,-0.9\n")  # a leap
+    row, out = run("leap", *motion, "Dynamics/End time = 0.1")
+    check_row("leap", row, rows(folder / "leap" / "frames.csv"))
+    check(int(row["shortened_steps"]) > 0 and f"{row['shortened_steps']} of 6 steps went only a part" in out,
+          f"shortened steps: {row['shortened_steps']}: {out}")

@@ -114,8 +114,9 @@ namespace softcell
     struct MotionHistory
     {
       unsigned int n_steps = 0, n_late = 0;    // late: over the frame budget
-      double slowest_ms     = 0;               // of a step
-      double kinetic_energy = 0;               // at the end. Units: J
+      unsigned int n_shortened = 0;            // steps that went only a part of their way
+      double slowest_ms        = 0;            // of a step
+      double kinetic_energy    = 0;            // at the end. Units: J
       std::map<std::string, Direction> forces; // at the end, by region. Units: N
     };
 

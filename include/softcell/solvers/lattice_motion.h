@@ -40,7 +40,8 @@ namespace softcell
     {
       double tolerance            = 1e-2; // of the residual, see Step
       unsigned int max_iterations = 1000;
-      Clock::time_point deadline  = Clock::time_point::max(); // after one iteration at least
+      Clock::time_point deadline  = Clock::time_point::max(); // of the step, if what follows the
+                                                              // system takes as long as last time
     };
 
     struct Step
@@ -48,6 +49,7 @@ namespace softcell
       unsigned int iterations = 0;
       double residual         = 1; // about what w misses in the energy norm, relative; before the
                                    // last iteration, if the end was not the tolerance
+      double way = 1; // the part of it that was gone; what is imposed comes late below 1
     };
 
     /// At rest.
@@ -81,9 +83,9 @@ namespace softcell
     {
       return v_;
     }
-    /// The force that held the held entries in the last step, without these nodes' own inertia; of
-    /// a step that was shortened, what its whole way would have taken. Elsewhere it is what the
-    /// linear system is in error. Units: N
+    /// The force that held the held entries in the last step, as far as it went, by its linear
+    /// system and without these nodes' own inertia. Elsewhere it is what the linear system is in
+    /// error. Units: N
     const LatticeVector<Real> &reaction() const
     {
       return reaction_;
@@ -107,6 +109,7 @@ namespace softcell
     double strain();
     double work(const LatticeVector<Real> &external);
     void shorten(const LatticeVector<Real> &external, double before, double dt);
+    void take_back(double multiple);
     void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
     void add_start(const LatticeVector<Real> &direction);
     void prepare_starts(const LatticeVector<Real> &w);
@@ -125,6 +128,7 @@ namespace softcell
     Real stiffness_ = 0, mass_ = 0;
     GeometricMultigrid<Real> multigrid_;
     Step step_;
+    Clock::duration after_solve_{}; // in the last step
     bool has_strain_ = false;
     double strain_   = 0; // energy, if it is known
   };
