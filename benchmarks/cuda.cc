@@ -2,17 +2,15 @@
 // How fast tangents act on a vector on a graphics card, cell by cell and by rows, and conjugate
 // gradients iterate there; and what the card could do at most. doc/gpu.md has what came out.
 
-#include <softcell/discretization/immersed.h>
-#include <softcell/geometry/geometry.h>
 #include <softcell/operators/cuda_elasticity.h>
 #include <softcell/operators/cuda_flat_elasticity.h>
 #include <softcell/operators/flat_patches.h>
-#include <softcell/operators/lattice_unknowns.h>
 #include <softcell/solvers/cuda_cg.h>
 #include <softcell/solvers/cuda_multigrid.h>
 #include <softcell/solvers/matrix_free_solver.h>
 
 #include "../tests/operators/lattice.h"
+#include "bodies.h"
 #include "cuda_peak.h"
 
 #include <deal.II/base/mpi.h>
@@ -21,7 +19,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -30,46 +27,6 @@ namespace
 {
   using namespace softcell;
   using benchmark::Counter;
-
-  /// Entries of all nodes of cells.
-  std::vector<std::size_t> node_entries(const CellLattice &cells)
-  {
-    std::vector<std::size_t> entries = LatticeUnknowns(cells, {}).free_entries();
-    entries.resize(entries.size() / 3);
-    return entries;
-  }
-
-  /// n x n x n full cells.
-  CellLattice box(const int n)
-  {
-    const double h = 1. / n;
-    CellLattice cells{NodeLattice(std::array<int, 3>{{n, n, n}}), Direction({h, h, h}), {}, {}, {}};
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-        {
-          cells.gauss_cells.push_back({{{i, j, k}}, {}});
-          cells.gauss_cells.back().weights.fill(h * h * h / 8);
-        }
-    cells.entries = node_entries(cells);
-    return cells;
-  }
-
-  CellLattice liver(const unsigned int n)
-  {
-    GeometryParameters geometry;
-    geometry.type   = "image";
-    geometry.file   = SOFTCELL_LIVER;
-    geometry.scale  = 0.001;
-    geometry.labels = {255};
-    std::vector<std::string> remarks;
-    const auto body = make_body(geometry, remarks);
-    GridParameters grid;
-    grid.cells = {n};
-    CutParameters cut;
-    cut.levels = 2;
-    return cell_lattice(Immersed("weighted cell", 1, grid, cut, *body, MPI_COMM_SELF));
-  }
 
   /// Each cell in eight, which share out what its Gauss points have.
   CellLattice refined(const CellLattice &cells)
@@ -98,8 +55,8 @@ namespace
     const auto known = lattices.find({body, millions});
     if (known != lattices.end())
       return known->second;
-    CellLattice cells = body == "box"   ? box(millions == 1 ? 69 : 139)
-                        : millions == 1 ? liver(86)
+    CellLattice cells = body == "box"   ? cube_cells(millions == 1 ? 69 : 139)
+                        : millions == 1 ? cells_of(liver(), 86)
                                         : refined(lattice(body, 1));
     return lattices.insert({{body, millions}, std::move(cells)}).first->second;
   }
@@ -333,7 +290,7 @@ namespace
   void for_each_body(const F &f)
   {
     std::vector<std::string> bodies{"box"};
-    if (std::ifstream(SOFTCELL_LIVER))
+    if (has_liver())
       bodies.emplace_back("liver");
     for (const std::string &body : bodies)
       for (const int millions : {1, 8})
@@ -374,7 +331,9 @@ int main(int argc, char **argv)
     add("multigrid of the host/" + name,
         [=](benchmark::State &state) { multigrid_of_the_host(state, lattice(body, millions)); });
   });
-  if (std::ifstream(SOFTCELL_LIVER)) // about 16 000 cells, as many as a frame may have
-    add("multigrid/frame", [](benchmark::State &state) { multigrid(state, liver(31), {1, 1e-2}); });
+  if (has_liver()) // about 16 000 cells, as many as a frame may have
+    add("multigrid/frame", [](benchmark::State &state) {
+      multigrid(state, cells_of(liver(), 31), {1, 1e-2});
+    });
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -2,15 +2,14 @@
 // How long a frame of a moving body takes, and how far its steps and the whole motion are from
 // converged ones: a liver held at its dome, which hangs down suddenly and is pulled to and fro.
 
-#include <softcell/discretization/methods.h>
-#include <softcell/geometry/geometry.h>
 #include <softcell/solvers/lattice_motion.h>
+
+#include "bodies.h"
 
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 
@@ -43,24 +42,10 @@ namespace
 
     static CellLattice cells_of(const std::string &body)
     {
-      GeometryParameters geometry;
-      geometry.type = body;
-      geometry.size = Point(0.2, 0.13, 0.13);
-      if (body == "liver")
-      {
-        geometry.type   = "image";
-        geometry.file   = SOFTCELL_LIVER;
-        geometry.scale  = 0.001;
-        geometry.labels = {255};
-      }
-      std::vector<std::string> remarks;
-      const auto shape = make_body(geometry, remarks);
-      DiscretizationParameters parameters;
-      parameters.method     = "weighted cell";
-      parameters.grid.cells = {body == "liver" ? 31U : 22U};
-      parameters.cut.levels = 3;
-      return cell_lattice(
-        *make_discretization(parameters, geometry, *shape, MPI_COMM_SELF, remarks));
+      GeometryParameters box;
+      box.type = "box";
+      box.size = Point(0.2, 0.13, 0.13);
+      return body == "liver" ? softcell::cells_of(liver(), 31, 3) : softcell::cells_of(box, 22, 3);
     }
 
     template <class Real>
@@ -145,7 +130,7 @@ namespace
   /// Arguments: threads, and iterations of a frame.
   void frames(benchmark::State &state, const std::string &name)
   {
-    if (name == "liver" && !std::ifstream(SOFTCELL_LIVER))
+    if (name == "liver" && !has_liver())
     {
       state.SkipWithError("scripts/fetch-liver has not been run");
       return;

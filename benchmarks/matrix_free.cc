@@ -3,13 +3,12 @@
 // cells, by Trilinos with the assembled matrix, and by deal.II's MatrixFree; and what the machine
 // could do at most. Threads share the rows of Trilinos' matrix as ranks would, without messages.
 
-#include <softcell/discretization/immersed.h>
-#include <softcell/geometry/geometry.h>
 #include <softcell/operators/elasticity.h>
 #include <softcell/operators/matrix_free_elasticity.h>
 
 #include "../source/operators/cell_kernels.h"
 #include "../tests/operators/lattice.h"
+#include "bodies.h"
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -39,7 +38,6 @@
 #include <chrono>
 #include <cmath>
 #include <experimental/simd>
-#include <fstream>
 #include <functional>
 #include <map>
 
@@ -211,65 +209,26 @@ namespace
     state.counters["unknowns"]   = n_unknowns;
   }
 
-  CellLattice box()
-  {
-    const double h = 1. / n_box;
-    const int n    = n_box;
-    CellLattice cells{NodeLattice(std::array<int, 3>{{n, n, n}}), Direction({h, h, h}), {}, {}, {}};
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-        {
-          cells.gauss_cells.push_back({{{i, j, k}}, {}});
-          cells.gauss_cells.back().weights.fill(h * h * h / 8);
-        }
-    for (int k = 0; k <= n; ++k)
-      for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i)
-          cells.entries.push_back(cells.nodes.entry(i, j, k));
-    return cells;
-  }
-
-  CellLattice cut(const GeometryParameters &geometry, const char *rule, const unsigned int n)
-  {
-    std::vector<std::string> remarks;
-    const auto body = make_body(geometry, remarks);
-    GridParameters grid;
-    grid.cells = {n};
-    CutParameters parameters;
-    parameters.levels = 2;
-    return cell_lattice(Immersed(rule, 1, grid, parameters, *body, MPI_COMM_SELF));
-  }
-
   const CellLattice &lattice(const std::string &body)
   {
     static std::map<std::string, CellLattice> lattices; // made once
     const auto known = lattices.find(body);
     if (known != lattices.end())
       return known->second;
-    GeometryParameters geometry;
-    if (body == "box")
-      return lattices.insert({body, box()}).first->second;
-    if (body == "liver")
-    {
-      geometry.type   = "image";
-      geometry.file   = SOFTCELL_LIVER;
-      geometry.scale  = 0.001;
-      geometry.labels = {255};
-      return lattices.insert({body, cut(geometry, "weighted cell", 88)}).first->second;
-    }
-    geometry.type = "sphere";
-    return lattices
-      .insert({body, cut(geometry, body == "sphere" ? "weighted cell" : "moment fitting",
-                         body == "sphere" ? 86 : 40)})
-      .first->second;
+    GeometryParameters sphere;
+    sphere.type       = "sphere";
+    CellLattice cells = body == "box"      ? cube_cells(n_box)
+                        : body == "liver"  ? cells_of(liver(), 88)
+                        : body == "sphere" ? cells_of(sphere, 86)
+                                           : cells_of(sphere, 40, 2, body);
+    return lattices.insert({body, std::move(cells)}).first->second;
   }
 
   /// Argument: threads.
   template <class Real>
   void matrix_free(benchmark::State &state, const std::string &body)
   {
-    if (body == "liver" && !std::ifstream(SOFTCELL_LIVER))
+    if (body == "liver" && !has_liver())
     {
       state.SkipWithError("scripts/fetch-liver has not been run");
       return;
