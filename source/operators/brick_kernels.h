@@ -212,17 +212,23 @@ namespace softcell
     }
   };
 
+  /// As many blocks as the tangent has registers for without spills, or what the compiler takes.
+  template <class Real, class Law>
+  constexpr int tangent_blocks()
+  {
+    if (!has_costly_pressure<Law>)
+      return 0;
+    if (std::is_same_v<Real, float>)
+      return 5;
+    return std::is_same_v<Law, NeoHookean<Real>> ? 3 : 2;
+  }
+
   template <class Real, class Law>
   struct TangentAction
   {
-    static constexpr int n_values      = 3;
+    static constexpr int n_values = 3, min_blocks = tangent_blocks<Real, Law>();
     static constexpr bool counts       = false;
     static constexpr bool shares_state = has_costly_pressure<Law>; // faster
-    // without spills
-    static constexpr int min_blocks = !shares_state                           ? 0
-                                      : sizeof(Real) == sizeof(float)         ? 5
-                                      : std::is_same_v<Law, NeoHookean<Real>> ? 3
-                                                                              : 2;
 
     Law law;
     Components<const Real> u, x;
