@@ -107,14 +107,22 @@ namespace softcell
     }
 
     /// I + du/dX.
-    template <class AnyPoint, class Weight>
-    SOFTCELL_HOST_DEVICE Matrix3<Number> deformation_gradient(const AnyPoint &point,
-                                                              const Weight &weight) const
+    template <class AnyPoint>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> deformation_gradient(const AnyPoint &point) const
     {
       Matrix3<Number> F = at(point);
 #pragma GCC unroll 3
       for (int c = 0; c < 3; ++c)
         F(c, c) += Number(1);
+      return F;
+    }
+
+    /// The same, and I where there is no weight.
+    template <class AnyPoint, class Weight>
+    SOFTCELL_HOST_DEVICE Matrix3<Number> deformation_gradient(const AnyPoint &point,
+                                                              const Weight &weight) const
+    {
+      Matrix3<Number> F = deformation_gradient(point);
       Cells::reset_where_empty(weight, F);
       return F;
     }
@@ -280,7 +288,8 @@ namespace softcell
     auto H       = state_gradients(cells, geometry);
     H.gather(cells, u);
     cells.for_each_point([&](const auto &point, const std::size_t number, const auto &weight) {
-      const Matrix3<Number> F_at = H.deformation_gradient(point, weight);
+      // without weight it is any finite matrix, of which the weighted law makes 0
+      const Matrix3<Number> F_at = H.deformation_gradient(point);
       const auto own_law         = weighted(law, weight);
       if constexpr (has_costly_pressure<Law>)
       {

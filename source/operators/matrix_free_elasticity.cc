@@ -66,6 +66,28 @@ namespace softcell
           else
             f(GaussPoint<Real>{q}, pack.point + q, this->load(pack.weights, q));
       }
+
+      /// Asks for what a pack ahead needs of a field that those on the way do not: rows of a cut
+      /// body begin anywhere, which the processor's own prefetching does not foresee. Always
+      /// inlined, as GCC takes calls of a function that does no more than this for dead.
+      [[gnu::always_inline]] void prefetch(const LatticeVector<Real> &field) const
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          for (const int corner : {2, 6})
+          {
+            const Real *const first =
+              field.component(c) + pack.ahead->entry + this->geometry.corners[corner];
+            __builtin_prefetch(first);
+            __builtin_prefetch(first + this->W);
+          }
+      }
+
+      [[gnu::always_inline]] void prefetch_points(const Real *const numbers) const
+      {
+        if (numbers != nullptr)
+          for (unsigned int q = 0; q < 8; ++q)
+            __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W);
+      }
     };
 
     /// Cells from anywhere with points of their own.
@@ -100,6 +122,9 @@ namespace softcell
         for (unsigned int q = 0; q < pack.n_points; ++q)
           f(CubePoint<Number>{{at(q, 0), at(q, 1), at(q, 2)}}, pack.point + q, at(q, 3));
       }
+
+      void prefetch(const LatticeVector<Real> &) const {}
+      void prefetch_points(const Real *) const {}
     };
 
     template <class Real>
@@ -241,6 +266,8 @@ namespace softcell
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
     for_each_pack(cells_, material_, clear(cells_, r),
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
+                    cells.prefetch(u);
+                    cells.prefetch(r);
                     n_inverted[layer] +=
                       add_residual(cells, law, geometry, components(u), components(r));
                   });
@@ -254,6 +281,7 @@ namespace softcell
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
     for_each_pack(cells_, material_, nothing_to_begin,
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
+                    cells.prefetch(u);
                     n_inverted[layer] +=
                       keep_pressures(cells, law, geometry, components(u),
                                      stresses == Stresses::tensile, pressures_.data());
@@ -266,6 +294,10 @@ namespace softcell
   {
     for_each_pack(cells_, material_, clear(cells_, y),
                   [&](const auto &cells, const auto &law, const auto &geometry, int) {
+                    cells.prefetch(u_);
+                    cells.prefetch(x);
+                    cells.prefetch(y);
+                    cells.prefetch_points(pressures_.data());
                     add_tangent_action(cells, law, geometry, components(u_), pressures_.data(),
                                        components(x), components(y));
                   });

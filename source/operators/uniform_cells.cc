@@ -213,7 +213,8 @@ namespace softcell
         const auto &[i, j, k] = other->place;
         return k != first[2] || j != first[1] || i >= first[0] + int(W);
       });
-      row_packs_.push_back({nodes_.entry(first[0], first[1], first[2]), n_points_, nullptr});
+      row_packs_.push_back(
+        {nodes_.entry(first[0], first[1], first[2]), n_points_, nullptr, nullptr});
       n_points_ += 8;
       ++row_layers_[first[2] + 1];
       const bool all_full = end - cell == W && std::all_of(cell, end, is_full);
@@ -228,8 +229,11 @@ namespace softcell
       cell = end;
     }
     for (std::size_t p = 0; p < starts.size(); ++p)
+    {
       if (starts[p] != std::size_t(-1))
         row_packs_[p].weights = &weights_[starts[p]];
+      row_packs_[p].ahead = &row_packs_[std::min(p + 2, starts.size() - 1)];
+    }
     std::partial_sum(row_layers_.begin(), row_layers_.end(), row_layers_.begin());
   }
 

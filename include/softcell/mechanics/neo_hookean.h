@@ -117,9 +117,10 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
                                                              const Number &pressure) const
     {
+      const Real tiny(1e-37F); // keeps the share finite, so that moduli of 0 make 0 of it
       const Matrix3<Number> G = cofactor(F);
       const Number J          = dot(F, 0, G.entries);
-      return {mu, Real(0), mu - pressure, G, Number(1) / (J * J)};
+      return {mu, Real(0), mu - pressure, G, Number(1) / (J * J + tiny)};
     }
   };
 } // namespace softcell

@@ -69,9 +69,10 @@ namespace softcell
     /// Neighbours along x with Gauss points.
     struct RowPack
     {
-      std::size_t entry;   // of the first cell's lowest node
-      std::size_t point;   // number of its first pack of points
-      const Real *weights; // (8, W) Units: m^3; null if all cells are full
+      std::size_t entry;    // of the first cell's lowest node
+      std::size_t point;    // number of its first pack of points
+      const Real *weights;  // (8, W) Units: m^3; null if all cells are full
+      const RowPack *ahead; // the pack after the next one
     };
 
     /// Cells from anywhere in a layer with points of their own.
