@@ -25,11 +25,13 @@ namespace softcell
       const CellGeometry<Real> &geometry;
     };
 
-    /// Neighbours along x with Gauss points, some of which may have weights of their own.
-    template <class Real, bool is_full>
+    /// Neighbours along x with Gauss points, in one row or half of them in another one. Unless all
+    /// are full they have weights of their own.
+    template <class Real, bool is_one_row, bool is_full>
     struct RowCells : SimdCells<Real>
     {
       using Number    = typename SimdCells<Real>::Number;
+      using Half      = stdx::resize_simd_t<SimdCells<Real>::W / 2, Number>;
       using Gradients = GaussGradients<Number, Real>;
 
       const typename UniformCells<Real>::RowPack &pack;
@@ -38,21 +40,48 @@ namespace softcell
       {
 #pragma GCC unroll 8
         for (int i = 0; i < 8; ++i)
-          v[i].copy_from(field + pack.entry + this->geometry.corners[i], stdx::element_aligned);
+        {
+          const Real *const nodes = field + this->geometry.corners[i];
+          if constexpr (is_one_row)
+            v[i].copy_from(nodes + pack.lower, stdx::element_aligned);
+          else
+            v[i] = stdx::concat(Half(nodes + pack.lower, stdx::element_aligned),
+                                Half(nodes + pack.upper, stdx::element_aligned));
+        }
+      }
+
+      void add(const Corners<Number> &v, Real *const field) const
+      {
+        if constexpr (is_one_row)
+          add_row(v, field + pack.lower);
+        else
+        {
+          Corners<Half> lower, upper;
+#pragma GCC unroll 8
+          for (int i = 0; i < 8; ++i)
+          {
+            const auto halves = stdx::split<Half>(v[i]);
+            lower[i]          = halves[0];
+            upper[i]          = halves[1];
+          }
+          add_row(lower, field + pack.lower);
+          add_row(upper, field + pack.upper);
+        }
       }
 
       /// The forces of both ends of the cells' edges along x in one pack of nodes, and the last
       /// cell's far end by itself: a pack that is loaded at another place than it was just stored
       /// to would have to wait.
-      void add(const Corners<Number> &v, Real *const field) const
+      template <class Pack>
+      void add_row(const Corners<Pack> &v, Real *const nodes) const
       {
 #pragma GCC unroll 4
         for (int i = 0; i < 8; i += 2)
         {
-          Real *const entry = field + pack.entry + this->geometry.corners[i];
-          (Number(entry, stdx::element_aligned) + (v[i] + this->moved_up(v[i + 1])))
-            .copy_to(entry, stdx::element_aligned);
-          entry[this->W] += v[i + 1][this->W - 1];
+          Real *const first = nodes + this->geometry.corners[i];
+          (Pack(first, stdx::element_aligned) + (v[i] + this->moved_up(v[i + 1])))
+            .copy_to(first, stdx::element_aligned);
+          first[Pack::size()] += v[i + 1][Pack::size() - 1];
         }
       }
 
@@ -75,10 +104,9 @@ namespace softcell
         for (unsigned int c = 0; c < 3; ++c)
           for (const int corner : {2, 6})
           {
-            const Real *const first =
-              field.component(c) + pack.ahead->entry + this->geometry.corners[corner];
-            __builtin_prefetch(first);
-            __builtin_prefetch(first + this->W);
+            const Real *const nodes = field.component(c) + this->geometry.corners[corner];
+            __builtin_prefetch(nodes + pack.ahead->lower);
+            __builtin_prefetch(nodes + pack.ahead->upper + this->W / 2);
           }
       }
 
@@ -87,6 +115,9 @@ namespace softcell
         if (numbers != nullptr)
           for (unsigned int q = 0; q < 8; ++q)
             __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W);
+        if (pack.ahead->weights != nullptr)
+          for (unsigned int q = 0; q < 8; ++q)
+            __builtin_prefetch(pack.ahead->weights + q * this->W);
       }
     };
 
@@ -165,9 +196,11 @@ namespace softcell
                                        typename UniformCells<Real>::PointPack>)
             f(ScatteredCells<Real>{{{}, geometry}, pack}, law, geometry, layer);
           else if (pack.weights == nullptr)
-            f(RowCells<Real, true>{{{}, geometry}, pack}, law, geometry, layer);
+            f(RowCells<Real, true, true>{{{}, geometry}, pack}, law, geometry, layer);
+          else if (pack.is_one_row)
+            f(RowCells<Real, true, false>{{{}, geometry}, pack}, law, geometry, layer);
           else
-            f(RowCells<Real, false>{{{}, geometry}, pack}, law, geometry, layer);
+            f(RowCells<Real, false, false>{{{}, geometry}, pack}, law, geometry, layer);
         });
       });
     }

@@ -30,9 +30,13 @@ namespace softcell
       return simd_log1p(x);
     }
     /// Each lane's value in the next lane, and 0 in the first.
-    static Number moved_up(const Number &x)
+    template <class Pack>
+    static Pack moved_up(const Pack &x)
     {
-      return moved_up(x, std::make_index_sequence<W>());
+      if constexpr (Pack::size() == 1)
+        return Pack(0);
+      else
+        return moved_up(x, std::make_index_sequence<Pack::size()>());
     }
     template <class Mask>
     static unsigned int count(const Mask &mask)
@@ -48,12 +52,12 @@ namespace softcell
     }
 
   private:
-    template <std::size_t... lane>
-    static Number moved_up(const Number &x, std::index_sequence<lane...> /*lanes*/)
+    template <class Pack, std::size_t... lane>
+    static Pack moved_up(const Pack &x, std::index_sequence<lane...> /*lanes*/)
     {
-      using Lanes [[gnu::vector_size(sizeof(Number))]] = Real;
-      return Number(
-        __builtin_shufflevector(Lanes{}, static_cast<Lanes>(x), (lane == 0 ? 0 : W + lane - 1)...));
+      using Lanes [[gnu::vector_size(sizeof(Pack))]] = Real;
+      return Pack(__builtin_shufflevector(Lanes{}, static_cast<Lanes>(x),
+                                          (lane == 0 ? 0 : Pack::size() + lane - 1)...));
     }
   };
 } // namespace softcell

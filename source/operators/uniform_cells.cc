@@ -12,6 +12,7 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace softcell
 {
@@ -200,34 +201,74 @@ namespace softcell
     std::sort(sorted.begin(), sorted.end(),
               [](const GaussCell *a, const GaussCell *b) { return is_before(a->place, b->place); });
 
+    using Half       = std::vector<const GaussCell *>; // cells of one row, within W/2
+    const auto entry = [&](const GaussCell *cell) {
+      return nodes_.entry(cell->place[0], cell->place[1], cell->place[2]);
+    };
     const auto is_full = [&](const GaussCell *cell) {
       return std::all_of(cell->weights.begin(), cell->weights.end(),
                          [&](const double w) { return std::abs(w - full) < 1e-12 * full; });
     };
     std::vector<std::size_t> starts; // of the packs' weights
     row_layers_.assign(nodes_.n_cells()[2] + 1, 0);
+    const auto add_pack = [&](const Half &lower, const Half &upper) {
+      const std::size_t first = entry(lower[0]), next = first + W / 2,
+                        other = upper.empty() ? next : entry(upper[0]);
+      row_packs_.push_back({first, other, other == next, n_points_, nullptr, nullptr});
+      n_points_ += 8;
+      ++row_layers_[lower[0]->place[2] + 1];
+      if (other == next && lower.size() + upper.size() == W &&
+          std::all_of(lower.begin(), lower.end(), is_full) &&
+          std::all_of(upper.begin(), upper.end(), is_full))
+      {
+        starts.push_back(std::size_t(-1));
+        return;
+      }
+      starts.push_back(weights_.size());
+      weights_.resize(weights_.size() + 8 * W);
+      for (const Half *half : {&lower, &upper})
+        for (const GaussCell *cell : *half)
+        {
+          const std::size_t lane =
+            entry(cell) - entry(half->front()) + (half == &lower ? 0 : W / 2);
+          for (unsigned int q = 0; q < 8; ++q)
+            weights_[starts.back() + q * W + lane] = cell->weights[q];
+        }
+    };
+
+    std::vector<Half> waiting; // for the other half of their pack
+    const auto finish_layer = [&] {
+      if (!waiting.empty())
+        add_pack(waiting[0], waiting.size() > 1 ? waiting[1] : Half());
+      waiting.clear();
+    };
     for (auto cell = sorted.begin(); cell != sorted.end();)
     {
-      const std::array<int, 3> first = (*cell)->place;
-      const auto end = std::find_if(cell, sorted.end(), [&](const GaussCell *other) {
-        const auto &[i, j, k] = other->place;
-        return k != first[2] || j != first[1] || i >= first[0] + int(W);
-      });
-      row_packs_.push_back(
-        {nodes_.entry(first[0], first[1], first[2]), n_points_, nullptr, nullptr});
-      n_points_ += 8;
-      ++row_layers_[first[2] + 1];
-      const bool all_full = end - cell == W && std::all_of(cell, end, is_full);
-      starts.push_back(all_full ? std::size_t(-1) : weights_.size());
-      if (!all_full)
+      const auto take_half = [&] {
+        Half half;
+        for (const auto first = (*cell)->place;
+             cell != sorted.end() && (*cell)->place[2] == first[2] &&
+             (*cell)->place[1] == first[1] && (*cell)->place[0] < first[0] + int(W / 2);
+             ++cell)
+          half.push_back(*cell);
+        return half;
+      };
+      if (!waiting.empty() && waiting[0][0]->place[2] != (*cell)->place[2])
+        finish_layer();
+      const Half half = take_half();
+      if (cell != sorted.end() && entry(*cell) == entry(half[0]) + W / 2)
+        add_pack(half, take_half());
+      else
+        waiting.push_back(half);
+      // not two of adjacent rows: one would have to wait for what the other has just stored
+      if (waiting.size() == 3)
       {
-        weights_.resize(weights_.size() + 8 * W);
-        for (; cell != end; ++cell)
-          for (unsigned int q = 0; q < 8; ++q)
-            weights_[starts.back() + q * W + (*cell)->place[0] - first[0]] = (*cell)->weights[q];
+        add_pack(waiting[0], waiting[2]);
+        waiting = {waiting[1]};
       }
-      cell = end;
     }
+    finish_layer();
+
     for (std::size_t p = 0; p < starts.size(); ++p)
     {
       if (starts[p] != std::size_t(-1))

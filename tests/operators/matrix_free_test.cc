@@ -83,6 +83,15 @@ namespace
 
   // Rows of 20 cells are packs of full cells, for doubles and for floats, and layers of 20 five
   // slabs.
+  // Rows of full packs, and what is left of them in packs of two rows.
+  TEST(MatrixFreeElasticity, IsTheAssembledOneOnLongRows)
+  {
+    const Problem p = problem("cylinder", "weighted cell", 25);
+    const Material material("Neo-Hookean", 5000, 0.3);
+    expect_agreement<double>(*p.discretization, material, 1e-12);
+    expect_agreement<float>(*p.discretization, material, 1e-5);
+  }
+
   TEST(MatrixFreeElasticity, IsTheAssembledOneOnFullCells)
   {
     const Problem p = problem("box", "weighted cell", 18);

@@ -55,9 +55,8 @@ namespace softcell
 
   /// The cells in packs of W, ordered by layers along z.
   ///
-  /// A row of cells is a pack of neighbours along x, which are loaded at once. A full cell stores
-  /// nothing, and any other cell of Gauss points its eight weights. Lanes without a cell have the
-  /// weights 0.
+  /// Neighbours along x are loaded at once. A full cell stores nothing, and any other cell of Gauss
+  /// points its eight weights. Lanes without a cell have the weights 0.
   template <class Real>
   class UniformCells
   {
@@ -66,13 +65,15 @@ namespace softcell
     UniformCells(UniformCells &&) noexcept            = default; // a copy's packs would look into
     UniformCells &operator=(UniformCells &&) noexcept = default; // the original
 
-    /// Neighbours along x with Gauss points.
+    /// Cells with Gauss points: W neighbours along x, or W/2 neighbours and W/2 others in the same
+    /// layer.
     struct RowPack
     {
-      std::size_t entry;    // of the first cell's lowest node
-      std::size_t point;    // number of its first pack of points
-      const Real *weights;  // (8, W) Units: m^3; null if all cells are full
-      const RowPack *ahead; // the pack after the next one
+      std::size_t lower, upper; // entries of the lowest nodes of both halves' first cells
+      bool is_one_row;          // upper follows lower
+      std::size_t point;        // number of its first pack of points
+      const Real *weights;      // (8, W) Units: m^3; null if it is a row of full cells
+      const RowPack *ahead;     // the pack after the next one
     };
 
     /// Cells from anywhere in a layer with points of their own.
