@@ -221,23 +221,35 @@ namespace softcell
     return 3 * I3 / (I2 + 2 * sqrt(max(I2 * I2 - 3 * I1 * I3, Number(0))));
   }
 
-  /// What |mu - lambda v| may be, so that the tangent is positive semi-definite.
-  template <class Real, class Number>
-  SOFTCELL_HOST_DEVICE Number definite_limit(const NeoHookean<Real> &law, const Matrix3<Number> &F)
+  /// Where mu - lambda v may be, so that the tangent is positive semi-definite.
+  template <class Number>
+  struct DefiniteRange
   {
-    return law.mu * smallest_eigenvalue(right_cauchy_green(F));
+    Number lower, upper;
+  };
+
+  /// With A = dF F^-1 in the principal axes and stretches s, dF : dP without lambda is the sum of
+  /// mu s_j^2 A_ij^2 + (mu - lambda v) A_ij A_ji: -mu s_1^2 and mu s_1 s_2 with the smallest ones.
+  template <class Real, class Number>
+  SOFTCELL_HOST_DEVICE DefiniteRange<Number> definite_range(const NeoHookean<Real> &law,
+                                                            const Matrix3<Number> &F)
+  {
+    using std::sqrt;
+    const Matrix3<Number> C = right_cauchy_green(F);
+    return {-law.mu * smallest_eigenvalue(C), law.mu * sqrt(smallest_eigenvalue(cofactor(C)))};
   }
 
   /// 0 where the law is continued, as its derivatives are others there.
   template <class Real, class Number>
-  SOFTCELL_HOST_DEVICE Number definite_limit(const InvertibleNeoHookean<Real> &law,
-                                             const Matrix3<Number> &F)
+  SOFTCELL_HOST_DEVICE DefiniteRange<Number> definite_range(const InvertibleNeoHookean<Real> &law,
+                                                            const Matrix3<Number> &F)
   {
     using std::max;
     using std::min;
     const Number share = determinant(F) / law.template smallest_regular<Number>() - Number(1);
-    return law.mu * min(max(share, Number(0)), Number(1)) *
-           smallest_eigenvalue(right_cauchy_green(F));
+    const Number kept  = min(max(share, Number(0)), Number(1));
+    const auto regular = definite_range(NeoHookean<Real>{law.lambda, law.mu}, F);
+    return {kept * regular.lower, kept * regular.upper};
   }
 
   /// Takes the pressures lambda v at u, by number of the point.
@@ -265,8 +277,8 @@ namespace softcell
         auto p = pressure<Cells>(law, F);
         if (is_tensile)
         {
-          const auto limit = definite_limit(law, F);
-          p                = min(max(p, law.mu - limit), law.mu + limit);
+          const auto range = definite_range(law, F);
+          p                = min(max(p, law.mu - range.upper), law.mu - range.lower);
         }
         Cells::store(p, pressures, number);
       }

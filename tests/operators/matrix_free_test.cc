@@ -141,6 +141,42 @@ namespace
     }
   }
 
+  // With stretches s_1 < s_2 < s_3 along x, y, z the softest change of F is [[0, -s_1], [s_2, 0]]
+  // F. Its energy is 2 (mu - f / (s_1 s_2)) s_1^2 s_2^2, with f in place of mu - lambda ln J: 0 if
+  // no more is left out than must be.
+  TEST(MatrixFreeElasticity, LeavesOutNoMoreCompressionThanItMust)
+  {
+    CellLattice cell{NodeLattice(std::array<int, 3>{{1, 1, 1}}), Direction({1, 1, 1}), {}, {}, {}};
+    cell.gauss_cells.push_back({{{0, 0, 0}}, {}});
+    cell.gauss_cells[0].weights.fill(0.125);
+    const UniformCells<double> cells(cell);
+    const Material material("Neo-Hookean", 2.9, 0.45); // mu = 1
+    MatrixFreeElasticity<double> elasticity(cells, material);
+    const double s[3] = {0.6, 0.9, 1.6};
+    LatticeVector<double> u(cell.nodes), x(cell.nodes), Kx(cell.nodes);
+    for (int v = 0; v < 8; ++v)
+    {
+      const std::size_t entry = cell.nodes.entry(v % 2, v / 2 % 2, v / 4);
+      const double X[3]       = {double(v % 2), double(v / 2 % 2), double(v / 4)};
+      for (int c = 0; c < 3; ++c)
+        u.component(c)[entry] = (s[c] - 1) * X[c];
+      x.component(0)[entry] = -s[0] * s[1] * X[1];
+      x.component(1)[entry] = s[1] * s[0] * X[0];
+    }
+    const auto energy = [&](const Stresses stresses) {
+      elasticity.set_state(u, stresses);
+      elasticity.vmult(Kx, x);
+      double sum = 0;
+      for (std::size_t i = 0; i < x.entries().size(); ++i)
+        sum += x.entries()[i] * Kx.entries()[i];
+      return sum / (s[0] * s[0] * s[1] * s[1]);
+    };
+    EXPECT_LT(energy(Stresses::all), -1);
+    EXPECT_GT(energy(Stresses::tensile), -1e-12);
+    EXPECT_LT(energy(Stresses::tensile),
+              0.1); // the bound of the stretches is good to a few percent
+  }
+
   TEST(CellLattice, IsRefusedWhereCellsAreNotAlike)
   {
     const auto refused = [](const Discretization &discretization) {

@@ -8,9 +8,10 @@ namespace softcell
   enum class Stresses
   {
     all,
-    /// Of Neo-Hookean, the factor mu - lambda ln J is kept between -mu s^2 and mu s^2, with s the
-    /// smallest stretch: in tension it is there by itself, and elsewhere this leaves out the
-    /// compressive stress. So the tangent is positive semi-definite at every point.
+    /// Of Neo-Hookean, the factor mu - lambda ln J is kept between -mu s_1^2 and mu s_1 s_2, with
+    /// the smallest stretches s_1 <= s_2: in tension it is there by itself, and elsewhere this
+    /// leaves out as much compressive stress as it must, so that the tangent is positive
+    /// semi-definite at every point.
     tensile
   };
 } // namespace softcell
