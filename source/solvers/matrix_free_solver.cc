@@ -43,7 +43,7 @@ namespace softcell
                                      const LinearSolverParameters &parameters)
       : parameters_(parameters),
         entries_(cells.entries),
-        multigrid_(cells, material, entries_of(constrained, cells)),
+        multigrid_(cells, material, entries_of(constrained, cells), smoother_degree),
         tangent_(cells, material, multigrid_.unknowns()),
         state_(cells.nodes),
         float_r_(cells.nodes),

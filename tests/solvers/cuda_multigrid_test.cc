@@ -89,7 +89,8 @@ namespace
     device_u.copy_from(field.entries().data());
     copy(b, body.cells->entries, field);
     device_b.copy_from(field.entries().data());
-    CudaMultigrid<float, TypeParam> multigrid(*body.cells, material, body.held);
+    CudaMultigrid<float, TypeParam> multigrid(*body.cells, material, body.held,
+                                              MatrixFreeSolver::smoother_degree);
     multigrid.set_state(device_u);
     CudaElasticity<double, TypeParam> tangent(CellBricks<double>(*body.cells), material);
     tangent.hold(multigrid.held());

@@ -141,9 +141,10 @@ namespace
     {
       SCOPED_TRACE(n);
       const HeldBody body("cylinder", n);
-      EXPECT_LE(
-        iterations(body, Material("Neo-Hookean", 5000, 0.3), body.discretization->make_vector()),
-        8U);
+      for (const double nu : {0.3, 0.45})
+        EXPECT_LE(
+          iterations(body, Material("Neo-Hookean", 5000, nu), body.discretization->make_vector()),
+          8U);
     }
   }
 

@@ -16,6 +16,9 @@ namespace softcell
   class MatrixFreeSolver : public LinearSolver
   {
   public:
+    /// On the finest grid. With 4 a system takes as long, in more iterations.
+    static constexpr unsigned int smoother_degree = 6;
+
     /// @param constrained  unknowns.
     /// @throws BadInput see cell_lattice()
     MatrixFreeSolver(const Discretization &discretization,
