@@ -210,17 +210,6 @@ namespace softcell
     return n_inverted;
   }
 
-  /// A lower bound of the smallest eigenvalue of a positive definite matrix, good to a few
-  /// percent and exact for the identity: Laguerre's step from 0 on its polynomial.
-  template <class Number>
-  SOFTCELL_HOST_DEVICE Number smallest_eigenvalue(const Matrix3<Number> &A)
-  {
-    using std::max;
-    using std::sqrt;
-    const Number I1 = trace(A), I2 = (I1 * I1 - double_contraction(A, A)) / 2, I3 = determinant(A);
-    return 3 * I3 / (I2 + 2 * sqrt(max(I2 * I2 - 3 * I1 * I3, Number(0))));
-  }
-
   /// Where mu - lambda v may be, so that the tangent is positive semi-definite.
   template <class Number>
   struct DefiniteRange
@@ -230,13 +219,22 @@ namespace softcell
 
   /// With A = dF F^-1 in the principal axes and stretches s, dF : dP without lambda is the sum of
   /// mu s_j^2 A_ij^2 + (mu - lambda v) A_ij A_ji: -mu s_1^2 and mu s_1 s_2 with the smallest ones.
+  /// In their place stand lower bounds, at least 3/4 of s_1^2 and 0.86 of s_1 s_2 = J / s_3, by
+  /// Laguerre's bounds of C's eigenvalues.
   template <class Real, class Number>
   SOFTCELL_HOST_DEVICE DefiniteRange<Number> definite_range(const NeoHookean<Real> &law,
                                                             const Matrix3<Number> &F)
   {
+    using std::max;
     using std::sqrt;
+    const Real tiny(1e-37F); // where F is flat
     const Matrix3<Number> C = right_cauchy_green(F);
-    return {-law.mu * smallest_eigenvalue(C), law.mu * sqrt(smallest_eigenvalue(cofactor(C)))};
+    const Number zero(0),
+      J = determinant(F), I1 = trace(C), CC = double_contraction(C, C),
+      I2       = max((I1 * I1 - CC) / 2, zero),
+      smallest = 3 * J * J / (I2 + 2 * sqrt(max(I2 * I2 - 3 * I1 * J * J, zero)) + tiny),
+      largest  = (I1 + 2 * sqrt(max(3 * CC - I1 * I1, zero) / 2)) / 3;
+    return {-law.mu * smallest, law.mu * J / sqrt(largest + tiny)};
   }
 
   /// 0 where the law is continued, as its derivatives are others there.

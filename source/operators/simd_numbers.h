@@ -33,8 +33,8 @@ namespace softcell
     template <class Pack>
     static Pack moved_up(const Pack &x)
     {
-      if constexpr (Pack::size() == 1)
-        return Pack(0);
+      if constexpr (sizeof(Pack) < 16) // no vector of the processor's
+        return Pack([&](const auto lane) { return lane == 0 ? Real(0) : Real(x[lane - 1]); });
       else
         return moved_up(x, std::make_index_sequence<Pack::size()>());
     }

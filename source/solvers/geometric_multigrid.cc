@@ -156,7 +156,7 @@ namespace softcell
       unknowns.for_each(p, level.d, [&](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
       level.tangent.vmult(level.Kd, p);
       const double curvature = unknowns.dot(p, level.Kd) / rz;
-      if (!(curvature > 0))
+      if (!(rz > 0 && curvature > 0))
         break;
       unknowns.for_each(level.r, level.Kd,
                         [&](Real &r_i, const Real Kp_i) { r_i -= Kp_i / Real(curvature); });

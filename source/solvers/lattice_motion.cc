@@ -192,6 +192,10 @@ namespace softcell
     {
       multigrid_.set_state(rest, tangent_.supports());
     }
+    catch (const NotConverged &) // a grid's tangent is not positive definite there
+    {
+      multigrid_.set_state(rest, tangent_.supports());
+    }
   }
 
   /// y += a x

@@ -56,6 +56,15 @@ namespace
     testing::Types<NeoHookean<>, SaintVenantKirchhoff<>, LinearElastic<>, InvertibleNeoHookean<>>;
   TYPED_TEST_SUITE(Laws, AllLaws);
 
+  // At a point without weight, where F may be anything, a kernel's law has moduli of 0.
+  TYPED_TEST(Laws, HaveNoTangentWithoutModuli)
+  {
+    for (const Matrix3<double> &F :
+         {Matrix3<double>{{1, 0, 0, 0, 1, 0, 0, 0, 0}}, Matrix3<double>{},
+          Matrix3<double>{{-1, 0, 0, 0, 1, 0, 0, 0, 1}}})
+      expect_near(TypeParam{0, 0}.linearisation(F, 0.)(dF1), Matrix3<double>{}, 0);
+  }
+
   template <class T>
   class FiniteStrainLaws : public testing::Test
   {

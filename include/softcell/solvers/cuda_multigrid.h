@@ -35,7 +35,8 @@ namespace softcell
 
     ~CudaMultigrid();
 
-    /// Takes the displacement at which the tangents are formed. @throws InvertedPoint
+    /// Takes the displacement at which the tangents are formed. @throws InvertedPoint,
+    /// or NotConverged if a grid's tangent is not positive definite
     template <class Number>
     void set_state(const Field<Number> &u);
 

@@ -42,7 +42,7 @@ namespace softcell
     void combine(Real stiffness, Real mass);
 
     /// Takes the displacement at which the tangents are formed, and the supports' tangent.
-    /// @throws InvertedPoint
+    /// @throws InvertedPoint, or NotConverged if a grid's tangent is not positive definite
     void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});
 
     /// y = K^-1 x, nearly, where x is taken as 0 in unknowns that are not free. Nodes without cells

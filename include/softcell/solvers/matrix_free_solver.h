@@ -16,7 +16,7 @@ namespace softcell
   class MatrixFreeSolver : public LinearSolver
   {
   public:
-    /// On the finest grid. With 4 a system takes as long, in more iterations.
+    /// On the finest grid. At rest a system takes as long with 4, in more iterations.
     static constexpr unsigned int smoother_degree = 6;
 
     /// @param constrained  unknowns.
