@@ -62,6 +62,62 @@ namespace softcell
 
     template <class Real>
     constexpr unsigned int pack_width = std::experimental::native_simd<Real>::size();
+
+    /// Cells of one row, in half as many places as a pack has.
+    using Half = std::vector<const GaussCell *>;
+
+    std::vector<Half> halves_of_packs(const std::vector<GaussCell> &cells, const int width)
+    {
+      std::vector<const GaussCell *> sorted;
+      for (const GaussCell &cell : cells)
+        sorted.push_back(&cell);
+      std::sort(sorted.begin(), sorted.end(), [](const GaussCell *a, const GaussCell *b) {
+        return is_before(a->place, b->place);
+      });
+      std::vector<Half> halves;
+      for (const GaussCell *cell : sorted)
+      {
+        const auto &[i, j, k] = cell->place;
+        const bool is_apart   = halves.empty() || i >= halves.back()[0]->place[0] + width ||
+                              j != halves.back()[0]->place[1] || k != halves.back()[0]->place[2];
+        if (is_apart)
+          halves.emplace_back();
+        halves.back().push_back(cell);
+      }
+      return halves;
+    }
+
+    /// Halves that follow each other share a pack, and so does what is left of a layer, mostly not
+    /// of adjacent rows: one would have to wait for what the other has just stored.
+    std::vector<std::pair<Half, Half>> paired(const std::vector<Half> &halves, const int width)
+    {
+      std::vector<std::pair<Half, Half>> pairs;
+      std::vector<Half> waiting;
+      for (std::size_t h = 0; h < halves.size(); ++h)
+      {
+        const std::array<int, 3> first = halves[h][0]->place,
+                                 next{{first[0] + width, first[1], first[2]}};
+        if (h + 1 < halves.size() && halves[h + 1][0]->place == next)
+        {
+          pairs.emplace_back(halves[h], halves[h + 1]);
+          ++h;
+        }
+        else
+          waiting.push_back(halves[h]);
+        if (waiting.size() == 3)
+        {
+          pairs.emplace_back(waiting[0], waiting[2]);
+          waiting = {waiting[1]};
+        }
+        const bool ends_layer = h + 1 == halves.size() || halves[h + 1][0]->place[2] != first[2];
+        if (ends_layer && !waiting.empty())
+        {
+          pairs.emplace_back(waiting[0], waiting.size() > 1 ? waiting[1] : Half());
+          waiting.clear();
+        }
+      }
+      return pairs;
+    }
   } // namespace
 
   CellLattice cell_lattice(const Discretization &discretization)
@@ -195,14 +251,7 @@ namespace softcell
   void UniformCells<Real>::add_row_packs(const std::vector<GaussCell> &cells, const double full)
   {
     constexpr unsigned int W = pack_width<Real>;
-    std::vector<const GaussCell *> sorted;
-    for (const GaussCell &cell : cells)
-      sorted.push_back(&cell);
-    std::sort(sorted.begin(), sorted.end(),
-              [](const GaussCell *a, const GaussCell *b) { return is_before(a->place, b->place); });
-
-    using Half       = std::vector<const GaussCell *>; // cells of one row, within W/2
-    const auto entry = [&](const GaussCell *cell) {
+    const auto entry         = [&](const GaussCell *cell) {
       return nodes_.entry(cell->place[0], cell->place[1], cell->place[2]);
     };
     const auto is_full = [&](const GaussCell *cell) {
@@ -211,20 +260,19 @@ namespace softcell
     };
     std::vector<std::size_t> starts; // of the packs' weights
     row_layers_.assign(nodes_.n_cells()[2] + 1, 0);
-    const auto add_pack = [&](const Half &lower, const Half &upper) {
+    for (const auto &[lower, upper] : paired(halves_of_packs(cells, W / 2), W / 2))
+    {
       const std::size_t first = entry(lower[0]), next = first + W / 2,
                         other = upper.empty() ? next : entry(upper[0]);
       row_packs_.push_back({first, other, other == next, n_points_, nullptr, nullptr});
       n_points_ += 8;
       ++row_layers_[lower[0]->place[2] + 1];
-      if (other == next && lower.size() + upper.size() == W &&
-          std::all_of(lower.begin(), lower.end(), is_full) &&
-          std::all_of(upper.begin(), upper.end(), is_full))
-      {
-        starts.push_back(std::size_t(-1));
-        return;
-      }
-      starts.push_back(weights_.size());
+      const bool all_full = other == next && lower.size() + upper.size() == W &&
+                            std::all_of(lower.begin(), lower.end(), is_full) &&
+                            std::all_of(upper.begin(), upper.end(), is_full);
+      starts.push_back(all_full ? std::size_t(-1) : weights_.size());
+      if (all_full)
+        continue;
       weights_.resize(weights_.size() + 8 * W);
       for (const Half *half : {&lower, &upper})
         for (const GaussCell *cell : *half)
@@ -234,41 +282,7 @@ namespace softcell
           for (unsigned int q = 0; q < 8; ++q)
             weights_[starts.back() + q * W + lane] = cell->weights[q];
         }
-    };
-
-    std::vector<Half> waiting; // for the other half of their pack
-    const auto finish_layer = [&] {
-      if (!waiting.empty())
-        add_pack(waiting[0], waiting.size() > 1 ? waiting[1] : Half());
-      waiting.clear();
-    };
-    for (auto cell = sorted.begin(); cell != sorted.end();)
-    {
-      const auto take_half = [&] {
-        Half half;
-        for (const auto first = (*cell)->place;
-             cell != sorted.end() && (*cell)->place[2] == first[2] &&
-             (*cell)->place[1] == first[1] && (*cell)->place[0] < first[0] + int(W / 2);
-             ++cell)
-          half.push_back(*cell);
-        return half;
-      };
-      if (!waiting.empty() && waiting[0][0]->place[2] != (*cell)->place[2])
-        finish_layer();
-      const Half half = take_half();
-      if (cell != sorted.end() && entry(*cell) == entry(half[0]) + W / 2)
-        add_pack(half, take_half());
-      else
-        waiting.push_back(half);
-      // not two of adjacent rows: one would have to wait for what the other has just stored
-      if (waiting.size() == 3)
-      {
-        add_pack(waiting[0], waiting[2]);
-        waiting = {waiting[1]};
-      }
     }
-    finish_layer();
-
     for (std::size_t p = 0; p < starts.size(); ++p)
     {
       if (starts[p] != std::size_t(-1))

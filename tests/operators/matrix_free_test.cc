@@ -14,6 +14,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <experimental/simd>
 
 namespace
 {
@@ -88,6 +89,19 @@ namespace
     const Material material("Neo-Hookean", 5000, 0.3);
     expect_agreement<double>(*p.discretization, material, 1e-12);
     expect_agreement<float>(*p.discretization, material, 1e-5);
+  }
+
+  // Each row is a cell longer than a pack; two such cells share a pack.
+  TEST(UniformCells, ShareWhatIsLeftOfRows)
+  {
+    const int W = std::experimental::native_simd<double>::size();
+    CellLattice lattice{
+      NodeLattice(std::array<int, 3>{{W + 1, 5, 2}}), Direction({1, 1, 1}), {}, {}, {}};
+    for (int k = 0; k < 2; ++k)
+      for (int j = 0; j < 5; ++j)
+        for (int i = 0; i <= W; ++i)
+          lattice.gauss_cells.push_back({{{i, j, k}}, {}});
+    EXPECT_EQ(UniformCells<double>(lattice).n_point_packs(), 8 * 2 * (5 + 3));
   }
 
   // Rows of 18 cells are packs of full cells, for doubles and for floats, and layers of 18 four
