@@ -232,13 +232,13 @@ namespace softcell
 
     Law law;
     Components<const Real> u, x;
-    const Real *pressures;
+    PointModuli<const Real> moduli;
 
     SOFTCELL_HOST_DEVICE unsigned int operator()(const ThreadCell<Real, shares_state> &cell,
                                                  const CellGeometry<Real> &geometry,
                                                  Real *const corners) const
     {
-      add_tangent_action(cell, law, geometry, u, pressures, x, components_of(corners));
+      add_tangent_action(cell, law, geometry, u, moduli, x, components_of(corners));
       return 0;
     }
 
@@ -267,21 +267,20 @@ namespace softcell
   };
 
   template <class Real, class Law>
-  struct PressureAction
+  struct ModuliAction
   {
     static constexpr int n_values = 0, min_blocks = 0;
     static constexpr bool counts = true, shares_state = false;
 
     Law law;
     Components<const Real> u;
-    bool is_tensile; // see Stresses
-    Real *pressures;
+    PointModuli<Real> moduli;
 
     SOFTCELL_HOST_DEVICE unsigned int operator()(const ThreadCell<Real, shares_state> &cell,
                                                  const CellGeometry<Real> &geometry,
                                                  Real * /*corners*/) const
     {
-      return keep_pressures(cell, law, geometry, u, is_tensile, pressures);
+      return keep_moduli(cell, law, geometry, u, moduli);
     }
   };
 
@@ -293,7 +292,7 @@ namespace softcell
 
     Law law;
     Components<const Real> u;
-    const Real *pressures;
+    PointModuli<const Real> moduli;
 
     SOFTCELL_HOST_DEVICE unsigned int operator()(const ThreadCell<Real, shares_state> &cell,
                                                  const CellGeometry<Real> &geometry,
@@ -303,7 +302,7 @@ namespace softcell
       for (int k = 0; k < 48; ++k)
         corners[k * n] = 0;
       const SharedRows<Real, 8> blocks{corners};
-      add_corner_blocks(cell, law, geometry, u, pressures, blocks);
+      add_corner_blocks(cell, law, geometry, u, moduli, blocks);
       return 0;
     }
   };

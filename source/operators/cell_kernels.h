@@ -2,7 +2,7 @@
 // What the matrix-free operator does on one cell, or on a pack of cells; for host and device.
 #pragma once
 
-#include "definite_range.h"
+#include "definite_tangent.h"
 #include "trilinear.h"
 
 #include <softcell/mechanics/laws.h>
@@ -210,20 +210,23 @@ namespace softcell
     return n_inverted;
   }
 
-  /// Takes the pressures lambda v at u, by number of the point.
-  /// @param is_tensile  keeps them where the tangent is positive semi-definite, see Stresses.
+  /// What a tangent keeps, by number of the point.
+  template <class Number>
+  struct PointModuli
+  {
+    Number *pressure; // lambda v; unused unless has_costly_pressure
+    Number *added;    // to lambda, of a definite tangent; null if it is exact
+  };
+
+  /// Takes the moduli at u.
   /// @return how many points are turned inside out.
   template <class Cells, class Law, class Real>
-  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE unsigned int
-  keep_pressures(const Cells &cells,
-                 const Law &law,
-                 const CellGeometry<Real> &geometry,
-                 const Components<const Real> &u,
-                 const bool is_tensile,
-                 Real *const pressures)
+  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE unsigned int keep_moduli(const Cells &cells,
+                                                                 const Law &law,
+                                                                 const CellGeometry<Real> &geometry,
+                                                                 const Components<const Real> &u,
+                                                                 const PointModuli<Real> &moduli)
   {
-    using std::max;
-    using std::min;
     unsigned int n_inverted = 0;
     CellGradients<Cells> H(geometry);
     H.gather(cells, u);
@@ -233,25 +236,25 @@ namespace softcell
       if constexpr (has_costly_pressure<Law>)
       {
         auto p = pressure<Cells>(law, F);
-        if (is_tensile)
+        if (moduli.added != nullptr)
         {
-          const auto range = definite_range(law, F);
-          p                = min(max(p, law.mu - range.upper), law.mu - range.lower);
+          const auto definite = definite_moduli(law, F, p);
+          Cells::store(definite.added, moduli.added, number);
+          p = definite.pressure;
         }
-        Cells::store(p, pressures, number);
+        Cells::store(p, moduli.pressure, number);
       }
     });
     return n_inverted;
   }
 
   /// Calls f(point, weighted tangent) for all points.
-  /// @param pressures  lambda v by number of the point, unused unless has_costly_pressure.
   template <class Cells, class Law, class Real, class F>
   SOFTCELL_HOST_DEVICE void for_each_tangent(const Cells &cells,
                                              const Law &law,
                                              const CellGeometry<Real> &geometry,
                                              const Components<const Real> &u,
-                                             const Real *pressures,
+                                             const PointModuli<const Real> &moduli,
                                              const F &f)
   {
     using Number = typename Cells::Number;
@@ -263,9 +266,11 @@ namespace softcell
       const auto own_law         = weighted(law, weight);
       if constexpr (has_costly_pressure<Law>)
       {
-        const Number pressure = weight * Cells::load(pressures, number);
+        const Number pressure = weight * Cells::load(moduli.pressure, number);
         auto tangent          = own_law.linearisation(F_at, pressure);
         tangent.lambda        = own_law.lambda;
+        if (moduli.added != nullptr)
+          tangent.lambda += weight * Cells::load(moduli.added, number);
         f(point, tangent);
       }
       else
@@ -275,19 +280,20 @@ namespace softcell
 
   /// Adds the tangent at u times x.
   template <class Cells, class Law, class Real>
-  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE void add_tangent_action(const Cells &cells,
-                                                                const Law &law,
-                                                                const CellGeometry<Real> &geometry,
-                                                                const Components<const Real> &u,
-                                                                const Real *pressures,
-                                                                const Components<const Real> &x,
-                                                                const Components<Real> &y)
+  SOFTCELL_FLATTEN SOFTCELL_HOST_DEVICE void
+  add_tangent_action(const Cells &cells,
+                     const Law &law,
+                     const CellGeometry<Real> &geometry,
+                     const Components<const Real> &u,
+                     const PointModuli<const Real> &moduli,
+                     const Components<const Real> &x,
+                     const Components<Real> &y)
   {
     CellGradients<Cells> dH(geometry), stress(geometry);
     dH.gather(cells, x);
-    for_each_tangent(
-      cells, law, geometry, u, pressures,
-      [&](const auto &point, const auto &tangent) { stress.add(point, tangent(dH.at(point))); });
+    for_each_tangent(cells, law, geometry, u, moduli, [&](const auto &point, const auto &tangent) {
+      stress.add(point, tangent(dH.at(point)));
+    });
     stress.scatter(cells, y);
   }
 
@@ -317,27 +323,26 @@ namespace softcell
                                               const Law &law,
                                               const CellGeometry<Real> &geometry,
                                               const Components<const Real> &u,
-                                              const Real *pressures,
+                                              const PointModuli<const Real> &moduli,
                                               Blocks &K)
   {
     using Number = typename Cells::Number;
-    for_each_tangent(cells, law, geometry, u, pressures,
-                     [&](const auto &point, const auto &tangent) {
-                       for (int corner = 0; corner < 8; ++corner)
-                       {
-                         NodalGradient<Number> dF;
-                         corner_gradient(point, corner, geometry.scale, dF.gradient);
-                         SOFTCELL_DEVICE_UNROLL
-                         for (int b = 0; b < 3; ++b)
-                         {
-                           dF.component             = b;
-                           const Matrix3<Number> dP = tangent(dF);
-                           SOFTCELL_DEVICE_UNROLL
-                           for (int a = 0; a <= b; ++a)
-                             K[a == b ? a : 6 - a - b][corner] += dot(dP, a, dF.gradient);
-                         }
-                       }
-                     });
+    for_each_tangent(cells, law, geometry, u, moduli, [&](const auto &point, const auto &tangent) {
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        NodalGradient<Number> dF;
+        corner_gradient(point, corner, geometry.scale, dF.gradient);
+        SOFTCELL_DEVICE_UNROLL
+        for (int b = 0; b < 3; ++b)
+        {
+          dF.component             = b;
+          const Matrix3<Number> dP = tangent(dF);
+          SOFTCELL_DEVICE_UNROLL
+          for (int a = 0; a <= b; ++a)
+            K[a == b ? a : 6 - a - b][corner] += dot(dP, a, dF.gradient);
+        }
+      }
+    });
   }
 
   /// The same at the nodes.
@@ -346,11 +351,11 @@ namespace softcell
                                      const Law &law,
                                      const CellGeometry<Real> &geometry,
                                      const Components<const Real> &u,
-                                     const Real *pressures,
+                                     const PointModuli<const Real> &moduli,
                                      Real *const (&blocks)[6])
   {
     Corners<typename Cells::Number> K[6] = {};
-    add_corner_blocks(cells, law, geometry, u, pressures, K);
+    add_corner_blocks(cells, law, geometry, u, moduli, K);
     for (int k = 0; k < 6; ++k)
       cells.add(K[k], blocks[k]);
   }

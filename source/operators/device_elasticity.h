@@ -84,14 +84,17 @@ namespace softcell
   }
 
   template <class Real, class Device>
-  void CudaElasticity<Real, Device>::set_state(const Field &u, const Stresses stresses)
+  void CudaElasticity<Real, Device>::set_state(const Field &u, const Tangent tangent)
   {
     u_.copy_from(u);
+    if (tangent == Tangent::exact)
+      added_moduli_ = Field();
+    else if (added_moduli_.size() != pressures_.size())
+      added_moduli_ = Field(pressures_.size());
     material_.visit([&](const auto &double_law) {
       const auto law = rounded<Real>(double_law);
-      run_cells(PressureAction<Real, std::decay_t<decltype(law)>>{
-        law, components<Real>(u_.data(), n_entries_), stresses == Stresses::tensile,
-        pressures_.data()});
+      run_cells(ModuliAction<Real, std::decay_t<decltype(law)>>{
+        law, components<Real>(u_.data(), n_entries_), {pressures_.data(), added_moduli_.data()}});
     });
     throw_if_inverted(n_inverted_);
   }
@@ -102,8 +105,10 @@ namespace softcell
     material_.visit([&](const auto &double_law) {
       const auto law = rounded<Real>(double_law);
       run_cells(TangentAction<Real, std::decay_t<decltype(law)>>{
-        law, components<Real>(u_.data(), n_entries_), components<Real>(x.data(), n_entries_),
-        pressures_.data()});
+        law,
+        components<Real>(u_.data(), n_entries_),
+        components<Real>(x.data(), n_entries_),
+        {pressures_.data(), added_moduli_.data()}});
     });
   }
 
@@ -127,7 +132,7 @@ namespace softcell
     material_.visit([&](const auto &double_law) {
       const auto law = rounded<Real>(double_law);
       run_cells(DiagonalAction<Real, std::decay_t<decltype(law)>>{
-        law, components<Real>(u_.data(), n_entries_), pressures_.data()});
+        law, components<Real>(u_.data(), n_entries_), {pressures_.data(), added_moduli_.data()}});
     });
     run_nodes(StoreAction<Real, 6>{n_entries_, held_.data(), blocks.data()});
   }

@@ -308,16 +308,19 @@ namespace softcell
   }
 
   template <class Real>
-  void MatrixFreeElasticity<Real>::set_state(const LatticeVector<Real> &u, const Stresses stresses)
+  void MatrixFreeElasticity<Real>::set_state(const LatticeVector<Real> &u, const Tangent tangent)
   {
     u_ = u;
+    if (tangent == Tangent::exact)
+      added_moduli_.clear();
+    else
+      added_moduli_.resize(pressures_.size());
+    const PointModuli<Real> moduli{pressures_.data(), added_moduli_.data()};
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
     for_each_pack(cells_, material_, nothing_to_begin,
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
                     cells.prefetch(u);
-                    n_inverted[layer] +=
-                      keep_pressures(cells, law, geometry, components(u),
-                                     stresses == Stresses::tensile, pressures_.data());
+                    n_inverted[layer] += keep_moduli(cells, law, geometry, components(u), moduli);
                   });
     throw_if_inverted(n_inverted);
   }
@@ -325,33 +328,37 @@ namespace softcell
   template <class Real>
   void MatrixFreeElasticity<Real>::vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const
   {
+    const PointModuli<const Real> moduli{pressures_.data(), added_moduli_.data()};
     for_each_pack(cells_, material_, clear(cells_, y),
                   [&](const auto &cells, const auto &law, const auto &geometry, int) {
                     cells.prefetch(u_);
                     cells.prefetch(x);
                     cells.prefetch(y);
-                    cells.prefetch_points(pressures_.data());
-                    add_tangent_action(cells, law, geometry, components(u_), pressures_.data(),
-                                       components(x), components(y));
+                    cells.prefetch_points(moduli.pressure);
+                    cells.prefetch_points(moduli.added);
+                    add_tangent_action(cells, law, geometry, components(u_), moduli, components(x),
+                                       components(y));
                   });
   }
 
   template <class Real>
   void MatrixFreeElasticity<Real>::diagonal(LatticeBlocks<Real> &blocks) const
   {
+    const PointModuli<const Real> moduli{pressures_.data(), added_moduli_.data()};
     for_each_pack(cells_, material_, clear(cells_, blocks),
                   [&](const auto &cells, const auto &law, const auto &geometry, int) {
                     Real *const all[6] = {blocks.component(0), blocks.component(1),
                                           blocks.component(2), blocks.component(3),
                                           blocks.component(4), blocks.component(5)};
-                    add_diagonal(cells, law, geometry, components(u_), pressures_.data(), all);
+                    add_diagonal(cells, law, geometry, components(u_), moduli, all);
                   });
   }
 
   template <class Real>
   std::size_t MatrixFreeElasticity<Real>::memory() const
   {
-    return u_.entries().size() * sizeof(Real) + pressures_.memory_consumption();
+    return u_.entries().size() * sizeof(Real) + pressures_.memory_consumption() +
+           added_moduli_.memory_consumption();
   }
 
   template class MatrixFreeElasticity<double>;

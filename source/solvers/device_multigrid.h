@@ -91,17 +91,17 @@ namespace softcell
     std::vector<Number> numbers(u.size());
     u.copy_to(numbers.data());
     std::vector<Real> state(numbers.begin(), numbers.end());
-    levels_[0]->tangent.set_state(Field<Real>(state), Stresses::tensile);
+    levels_[0]->tangent.set_state(Field<Real>(state), Tangent::definite);
     for (unsigned int l = 1; l < levels_.size(); ++l)
     {
       state = grids_.coarse(l - 1, state);
       try
       {
-        levels_[l]->tangent.set_state(Field<Real>(state), Stresses::tensile);
+        levels_[l]->tangent.set_state(Field<Real>(state), Tangent::definite);
       }
       catch (const InvertedPoint &)
       {
-        levels_[l]->tangent.set_state(Field<Real>(state.size()), Stresses::tensile);
+        levels_[l]->tangent.set_state(Field<Real>(state.size()), Tangent::definite);
       }
     }
     for (unsigned int l = 0; l + 1 < levels_.size(); ++l)

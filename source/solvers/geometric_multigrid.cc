@@ -107,7 +107,7 @@ namespace softcell
                                            LatticeMatrix<Real> supports)
   {
     LatticeVector<Real> state = u;
-    levels_[0]->tangent.elasticity().set_state(state, Stresses::tensile);
+    levels_[0]->tangent.elasticity().set_state(state, Tangent::definite);
     levels_[0]->tangent.supports() = std::move(supports);
     for (unsigned int l = 1; l < levels_.size(); ++l)
     {
@@ -117,12 +117,12 @@ namespace softcell
         coarse_displacement(fine.unknowns, state, coarse.unknowns, coarse.spacing);
       try
       {
-        coarse.tangent.elasticity().set_state(coarse_state, Stresses::tensile);
+        coarse.tangent.elasticity().set_state(coarse_state, Tangent::definite);
       }
       catch (const InvertedPoint &)
       {
         const LatticeVector<Real> rest(coarse.unknowns.nodes());
-        coarse.tangent.elasticity().set_state(rest, Stresses::tensile);
+        coarse.tangent.elasticity().set_state(rest, Tangent::definite);
       }
       coarse.tangent.supports() = LatticeMatrix<Real>(levels_[l - 1]->tangent.supports(),
                                                       fine.unknowns, coarse.unknowns.nodes());

@@ -147,7 +147,7 @@ namespace softcell
   void LatticeMotion<Real>::linearise()
   {
     const bool is_euler = parameters_.scheme == TimeScheme::implicit_euler;
-    tangent_.elasticity().set_state(u_, is_euler ? Stresses::tensile : Stresses::all);
+    tangent_.elasticity().set_state(u_, is_euler ? Tangent::definite : Tangent::exact);
   }
 
   template <class Real>

@@ -79,8 +79,8 @@ namespace softcell
     template <class Number>
     struct Linearisation
     {
-      Real mu, lambda;
-      Number factor; // mu - lambda L
+      Real mu;
+      Number lambda, factor; // mu - lambda L
       Matrix3<Number> F, G;
       Number slope, curvature; // L', L''
 
@@ -125,7 +125,7 @@ namespace softcell
     SOFTCELL_HOST_DEVICE Linearisation<Number> linearisation(const Matrix3<Number> &F,
                                                              const Number &pressure) const
     {
-      Linearisation<Number> tangent{mu, Real(0), mu - pressure, F, cofactor(F), {}, {}};
+      Linearisation<Number> tangent{mu, Number(0), mu - pressure, F, cofactor(F), {}, {}};
       derivatives(dot(F, 0, tangent.G.entries), tangent.slope, tangent.curvature);
       return tangent;
     }

@@ -75,8 +75,8 @@ namespace softcell
     template <class Number>
     struct Linearisation
     {
-      Real mu, lambda;
-      Number factor; // mu - lambda ln J
+      Real mu;
+      Number lambda, factor; // mu - lambda ln J
       Matrix3<Number> G;
       Number share; // 1 / J^2
 
@@ -120,7 +120,7 @@ namespace softcell
       const Real tiny(1e-37F); // keeps the share finite, so that moduli of 0 make 0 of it
       const Matrix3<Number> G = cofactor(F);
       const Number J          = dot(F, 0, G.entries);
-      return {mu, Real(0), mu - pressure, G, Number(1) / (J * J + tiny)};
+      return {mu, Number(0), mu - pressure, G, Number(1) / (J * J + tiny)};
     }
   };
 } // namespace softcell

@@ -5,7 +5,7 @@
 #include <softcell/base/device.h>
 #include <softcell/mechanics/material.h>
 #include <softcell/operators/cell_bricks.h>
-#include <softcell/operators/stresses.h>
+#include <softcell/operators/tangent.h>
 
 namespace softcell
 {
@@ -39,7 +39,7 @@ namespace softcell
 
     /// Takes the displacement at which the tangent is formed. Call it before the functions below.
     /// @throws InvertedPoint
-    void set_state(const Field &u, Stresses stresses = Stresses::all);
+    void set_state(const Field &u, Tangent tangent = Tangent::exact);
 
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(Field &y, const Field &x);
@@ -66,7 +66,8 @@ namespace softcell
     Field weights_;
     DeviceArray<typename CellBricks<Real>::NodeBrick, Device> node_bricks_;
     DeviceArray<unsigned char, Device> held_;
-    Field u_, pressures_;                 // (bricks, 8, n_cells) lambda v, where v is costly
+    Field u_, pressures_,                 // (bricks, 8, n_cells) lambda v, where v is costly
+      added_moduli_;                      // the same, to lambda, of a definite tangent
     Field sums_;                          // (6, bricks, n_corners)
     DeviceArray<int, Device> n_inverted_; // (bricks) points
   };

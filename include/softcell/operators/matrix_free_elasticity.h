@@ -3,7 +3,7 @@
 #pragma once
 
 #include <softcell/mechanics/material.h>
-#include <softcell/operators/stresses.h>
+#include <softcell/operators/tangent.h>
 #include <softcell/operators/uniform_cells.h>
 
 namespace softcell
@@ -31,7 +31,7 @@ namespace softcell
 
     /// Takes the displacement at which the tangent is formed; before, it is that at u = 0.
     /// @throws InvertedPoint
-    void set_state(const LatticeVector<Real> &u, Stresses stresses = Stresses::all);
+    void set_state(const LatticeVector<Real> &u, Tangent tangent = Tangent::exact);
 
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const;
@@ -50,6 +50,7 @@ namespace softcell
     const UniformCells<Real> &cells_;
     Material material_;
     LatticeVector<Real> u_;
-    dealii::AlignedVector<Real> pressures_; // (packs of points, W) lambda v, where v is costly
+    dealii::AlignedVector<Real> pressures_, // (packs of points, W) lambda v, where v is costly
+      added_moduli_;                        // the same, to lambda, of a definite tangent
   };
 } // namespace softcell

@@ -15,8 +15,7 @@ namespace softcell
   /// V-cycle over a grid of cells and those with twice, four times, ... the edges.
   ///
   /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
-  /// one, and the supports as Galerkin's product. The tangents leave out stresses that could make
-  /// them indefinite, see MatrixFreeElasticity::set_state(). The
+  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent. The
   /// displacement is smoothed where coarse cells are nearly inside out; if that is not enough,
   /// their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
   /// tangent at rest is the same.

@@ -27,8 +27,7 @@ namespace softcell
   /// follows, so that after any number of iterations w (A w - b) = 0 but for what is imposed, see
   /// advance(): few iterations cannot raise the energy. Where the law's own energy rises above what
   /// is put in, the way of the step is halved, and what is imposed comes late. Implicit Euler uses
-  /// tangents without compressive stress, which are positive semi-definite (Stresses::tensile); it
-  /// is of first order with any.
+  /// Tangent::definite; it is of first order with any.
   template <class Real>
   class LatticeMotion
   {
