@@ -3,10 +3,9 @@
 
 #include <softcell/solvers/lattice_motion.h>
 
-#include <softcell/base/exceptions.h>
-
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace softcell
 {
@@ -188,11 +187,7 @@ namespace softcell
     {
       multigrid_.set_state(is_new ? rest : u_, tangent_.supports());
     }
-    catch (const InvertedPoint &) // its law has no value there
-    {
-      multigrid_.set_state(rest, tangent_.supports());
-    }
-    catch (const NotConverged &) // a grid's tangent is not positive definite there
+    catch (const std::runtime_error &) // there a point is inverted or a tangent is not definite
     {
       multigrid_.set_state(rest, tangent_.supports());
     }
