@@ -78,9 +78,7 @@ namespace softcell
     unknowns_.for_each(way_, u_, [](Real &way_i, const Real u_i) { way_i = u_i - way_i; });
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
-    shorten(external, before, dt);
-    if (step_.way < 1)
-      take_back((1 / step_.way - 1) / (dt * h));
+    shorten(external, before, dt, h);
     after_solve_ = Clock::now() - solved;
     return step_;
   }
@@ -112,7 +110,8 @@ namespace softcell
   template <class Real>
   void LatticeMotion<Real>::shorten(const LatticeVector<Real> &external,
                                     const double before,
-                                    const double dt)
+                                    const double dt,
+                                    const double h)
   {
     constexpr unsigned int most = 5;
     constexpr double margin     = 0.05;
@@ -125,6 +124,7 @@ namespace softcell
       add(u_, -1, way_);
       step_.way *= 0.5;
       unknowns_.for_each(v_, way_, [dt](Real &v_i, const Real way_i) { v_i = way_i / Real(dt); });
+      take_back(1 / (dt * h)); // of the half that is not gone
     }
     has_strain_ = false;
   }

@@ -107,7 +107,7 @@ namespace softcell
     void combine(Real stiffness, Real mass, bool has_time);
     double strain();
     double work(const LatticeVector<Real> &external);
-    void shorten(const LatticeVector<Real> &external, double before, double dt);
+    void shorten(const LatticeVector<Real> &external, double before, double dt, double h);
     void take_back(double multiple);
     void add(LatticeVector<Real> &y, Real a, const LatticeVector<Real> &x) const;
     void add_start(const LatticeVector<Real> &direction);
