@@ -150,22 +150,18 @@ namespace
     }
   }
 
-  /// The energy of the softest change of a cell with stretches s_1 < s_2 < s_3 between two turns,
-  /// A F with A = [[0, -s_1], [s_2, 0]] in their axes, in units of mu s_1^2 s_2^2. It is
-  /// 2 - 2 f / (s_1 s_2), with f mu in place of mu - lambda ln J.
+  /// dF : dP of a cell with the same F everywhere.
   template <class Real>
-  double softest_energy(const std::array<Real, 3> &s, const Tangent tangent)
+  double energy_of(const Matrix3<Real> &dF,
+                   const Matrix3<Real> &F,
+                   const Material &material,
+                   const Tangent tangent)
   {
     CellLattice cell{NodeLattice(std::array<int, 3>{{1, 1, 1}}), Direction({1, 1, 1}), {}, {}, {}};
     cell.gauss_cells.push_back({{{0, 0, 0}}, {}});
     cell.gauss_cells[0].weights.fill(0.125);
     const UniformCells<Real> cells(cell);
-    MatrixFreeElasticity<Real> elasticity(cells, Material("Neo-Hookean", 2.9, 0.45)); // mu = 1
-    const Matrix3<Real> S{{s[0], 0, 0, 0, s[1], 0, 0, 0, s[2]}},
-      A{{0, -s[0], 0, s[1], 0, 0, 0, 0, 0}},
-      R{{Real(0.36), Real(0.48), Real(-0.8), Real(-0.8), Real(0.6), 0, Real(0.48), Real(0.64),
-         Real(0.6)}},
-      F = R * S * transpose(R * R), dF = R * A * S * transpose(R * R);
+    MatrixFreeElasticity<Real> elasticity(cells, material);
     LatticeVector<Real> u(cell.nodes), x(cell.nodes), Kx(cell.nodes);
     for (int v = 0; v < 8; ++v)
       for (int c = 0; c < 3; ++c)
@@ -181,7 +177,23 @@ namespace
     double sum = 0;
     for (std::size_t i = 0; i < x.entries().size(); ++i)
       sum += double(x.entries()[i]) * Kx.entries()[i];
-    return sum / (s[0] * s[0] * s[1] * s[1]);
+    return sum;
+  }
+
+  const Material soft("Neo-Hookean", 2.9, 0.45); // mu = 1
+
+  /// The energy of the softest change of a cell with stretches s_1 < s_2 < s_3 between two turns,
+  /// A F with A = [[0, -s_1], [s_2, 0]] in their axes, in units of mu s_1^2 s_2^2. It is
+  /// 2 - 2 f / (s_1 s_2), with f mu in place of mu - lambda ln J.
+  template <class Real>
+  double softest_energy(const std::array<Real, 3> &s, const Tangent tangent)
+  {
+    const Matrix3<Real> S{{s[0], 0, 0, 0, s[1], 0, 0, 0, s[2]}},
+      A{{0, -s[0], 0, s[1], 0, 0, 0, 0, 0}},
+      R{{Real(0.36), Real(0.48), Real(-0.8), Real(-0.8), Real(0.6), 0, Real(0.48), Real(0.64),
+         Real(0.6)}};
+    return energy_of(R * A * S * transpose(R * R), R * S * transpose(R * R), soft, tangent) /
+           (s[0] * s[0] * s[1] * s[1]);
   }
 
   // 0 would be left if no more was left out than must be; the bound of s_1 s_2 is 0.86 of it at
@@ -199,6 +211,17 @@ namespace
     // J is good to 1e-4 there
     EXPECT_GT(softest_energy(float_flat, Tangent::definite), -1e-3);
     EXPECT_LT(softest_energy(float_flat, Tangent::definite), 0.28);
+  }
+
+  // Shears of both signs, from inside out to where the law is Neo-Hookean.
+  TEST(MatrixFreeElasticity, DefiniteTangentIsDefiniteWhereTheLawIsContinued)
+  {
+    for (const double s : {-1., -0.3, -0.01, 0., 0.1, 0.2, 0.3, 0.6})
+      for (const double sign : {-1, 1})
+      {
+        const Matrix3<double> F{{s, 0, 0, 0, 1, 0, 0, 0, 1.2}}, dF{{0, 1, 0, sign, 0, 0, 0, 0, 0}};
+        EXPECT_GT(energy_of(dF, F, soft.invertible(), Tangent::definite), -1e-12) << s << sign;
+      }
   }
 
   // With the same F everywhere, what a definite tangent has in place of the stress that it leaves
