@@ -61,8 +61,7 @@ namespace softcell
 #pragma GCC unroll 4
       for (int i = 0; i < 4; ++i)
       {
-        d[i] = v[2 * i + 1] - v[2 * i];
-        interpolate(v[2 * i], v[2 * i + 1], lower[i], upper[i]);
+        d[i] = interpolate(v[2 * i], v[2 * i + 1], lower[i], upper[i]);
       }
       Number e[4];
       interpolate(d[0], d[1], e[0], e[1]);
@@ -123,13 +122,15 @@ namespace softcell
     }
 
     /// Twice the values at the Gauss points of what is a at -1 and b at 1. It is its own transpose.
-    SOFTCELL_HOST_DEVICE static void
+    /// @return b - a.
+    SOFTCELL_HOST_DEVICE static Number
     interpolate(const Number &a, const Number &b, Number &lower, Number &upper)
     {
       constexpr Real s = GaussPoint<Real>::distance;
       const Number m = a + b, d = b - a;
       lower = m - s * d;
       upper = m + s * d;
+      return d;
     }
 
     /// The same times a factor.
