@@ -46,8 +46,7 @@ namespace softcell
   {
     const Real *z;
     Real *p;
-    const double *rz;
-    double rz_before; // of the last iteration
+    const double *rz; // now, and before it that of the last iteration
     bool is_first;
 
     SOFTCELL_HOST_DEVICE void operator()(const std::size_t i) const
@@ -55,7 +54,7 @@ namespace softcell
       if (*rz <= 0)
         p[i] = 0;
       else
-        p[i] = is_first ? z[i] : z[i] + Real(*rz / rz_before) * p[i];
+        p[i] = is_first ? z[i] : z[i] + Real(rz[0] / rz[-1]) * p[i];
     }
   };
 
@@ -141,7 +140,7 @@ namespace softcell
 
   template <class Real, class Device>
   CudaCG<Real, Device>::CudaCG(const std::size_t size)
-      : r_(size), p_(size), z_(size), block_sums_(n_sum_blocks), scalars_(3)
+      : r_(size), p_(size), z_(size), block_sums_(n_sum_blocks), scalars_(2)
   {
   }
 
@@ -175,27 +174,31 @@ namespace softcell
   {
     history_.clear();
     curvatures_.clear();
-    rz_.clear();
-    double *const pAp = scalars_.data(), *const rr = pAp + 1, *const rz = pAp + 2;
+    if (rz_.size() < max_iterations)
+      rz_ = DeviceArray<double, Device>(max_iterations);
+    double *const pAp = scalars_.data(), *const rr = pAp + 1;
     sum_up(StartTerms<Real>{b.data(), x.data(), r_.data()}, rr);
     const double bb = finite_numbers<Device>(rr, 1)[0];
     if (bb == 0)
       return 0;
     for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
     {
-      const bool is_first    = iteration == 1;
-      const double rz_before = is_first ? 0 : rz_.back();
+      const bool is_first = iteration == 1;
+      double *const rz    = rz_.data() + iteration - 1;
       M(z_, r_);
       sum_up(ProductTerms<Real>{r_.data(), z_.data()}, rz);
-      for_each_entry<Device>(DirectionAction<Real>{z_.data(), p_.data(), rz, rz_before, is_first},
-                             p_.size());
+      for_each_entry<Device>(DirectionAction<Real>{z_.data(), p_.data(), rz, is_first}, p_.size());
       A(z_, p_);
       sum_up(ProductTerms<Real>{p_.data(), z_.data()}, pAp);
       sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), pAp, rz, is_first}, rr);
-      const std::vector<double> scalars = finite_numbers<Device>(scalars_.data(), 3);
-      rz_.push_back(scalars[2]);
+      const std::vector<double> scalars = finite_numbers<Device>(scalars_.data(), 2);
       if (scalars[0] <= 0) // A is indefinite, or M
+      {
+        if (is_first && finite_numbers<Device>(rz, 1)[0] <= 0)
+          throw NotConverged("conjugate gradients cannot start: the preconditioner is not "
+                             "positive definite");
         return iteration;
+      }
       curvatures_.push_back(scalars[0]);
       history_.push_back(std::sqrt(scalars[1] / bb));
       if (history_.back() <= tolerance)
@@ -207,9 +210,11 @@ namespace softcell
   template <class Real, class Device>
   double CudaCG<Real, Device>::largest_eigenvalue() const
   {
+    const std::size_t n          = curvatures_.size();
+    const std::vector<double> rz = finite_numbers<Device>(rz_.data(), n);
     LanczosMatrix lanczos;
-    for (std::size_t i = 0; i < curvatures_.size(); ++i)
-      lanczos.add(curvatures_[i] / rz_[i], i == 0 ? 0 : rz_[i] / rz_[i - 1]);
+    for (std::size_t i = 0; i < n; ++i)
+      lanczos.add(curvatures_[i] / rz[i], i == 0 ? 0 : rz[i] / rz[i - 1]);
     return lanczos.extreme_eigenvalues().second;
   }
 
@@ -221,11 +226,7 @@ namespace softcell
                                            const double tolerance,
                                            const unsigned int max_iterations)
   {
-    const auto iterations = iterate(A, M, x, b, tolerance, max_iterations);
-    if (!rz_.empty() && rz_[0] <= 0)
-      throw NotConverged("conjugate gradients cannot start: the preconditioner is not positive "
-                         "definite");
-    if (iterations)
+    if (const auto iterations = iterate(A, M, x, b, tolerance, max_iterations))
       return *iterations;
     throw NotConverged("conjugate gradients reached a relative residual of " +
                        std::to_string(history_.back()) + " instead of " +

@@ -208,9 +208,6 @@ namespace
     EXPECT_DOUBLE_EQ(cg.largest_eigenvalue(), 11. / 3); // p.Ap / r.z
     b.copy_from(std::vector<double>{1, 2}.data());
     EXPECT_THROW(cg.solve(times({3, -1}), times({1, -1}), x, b, 1e-12, 5), NotConverged);
-    EXPECT_EQ(cg.iterate(times({3, -1}), times({1, -1}), x, b, 1e-12, 5), 1U);
-    EXPECT_EQ(on_host(x)[1], 0);
-    EXPECT_TRUE(std::isnan(cg.largest_eigenvalue()));
   }
 
   TYPED_TEST(CudaCGTest, RecordsAnewAfterAnError)

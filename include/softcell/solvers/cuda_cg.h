@@ -13,10 +13,10 @@ namespace softcell
   /// Preconditioned conjugate gradients on a device: Cuda, or Serial, which runs the same kernels
   /// on the host.
   ///
-  /// Vectors and step lengths stay on the device. The host gets three scalars in each iteration,
-  /// p.Ap, r.r and r.z, and decides by the first two whether to go on. Products of vectors are sums
-  /// of double precision in a fixed order: those of 256 blocks, then one block over these. So
-  /// results are always the same. Source: Magnoux algorithm 2.
+  /// Vectors and step lengths stay on the device. The host gets two scalars in each iteration, p.Ap
+  /// and r.r, and decides by them whether to go on. Products of vectors are sums of double
+  /// precision in a fixed order: those of 256 blocks, then one block over these. So results are
+  /// always the same. Source: Magnoux algorithm 2.
   template <class Real, class Device>
   class CudaCG
   {
@@ -40,8 +40,7 @@ namespace softcell
                        double tolerance,
                        unsigned int max_iterations);
 
-    /// The same, but returns nothing where the iterations do not suffice, and 1 with x = 0 where
-    /// r.z is not positive at once.
+    /// The same, but returns nothing where the iterations do not suffice.
     std::optional<unsigned int> iterate(const Operator &A,
                                         const Operator &M,
                                         Field &x,
@@ -63,9 +62,9 @@ namespace softcell
 
     Field r_, p_, z_;                        // the last one for A p as well
     DeviceArray<double, Device> block_sums_; // (blocks)
-    DeviceArray<double, Device> scalars_;    // p.Ap, r.r, r.z
-    std::vector<double> rz_;                 // r.z of each iteration
-    std::vector<double> curvatures_;         // p.Ap of each where it is positive
+    DeviceArray<double, Device> scalars_;    // p.Ap, r.r
+    DeviceArray<double, Device> rz_;         // r.z of each iteration
+    std::vector<double> curvatures_;         // p.Ap of each
     std::vector<double> history_;
   };
 
