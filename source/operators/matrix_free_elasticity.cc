@@ -25,9 +25,9 @@ namespace softcell
       const CellGeometry<Real> &geometry;
     };
 
-    /// Neighbours along x with Gauss points, in one row or half of them in another one. Unless all
-    /// are full they have weights of their own.
-    template <class Real, bool is_one_row, bool is_full>
+    /// Neighbours along x with Gauss points, in one row or half of them in another one. One kernel
+    /// serves all: three would be larger than the processor's cache of instructions.
+    template <class Real>
     struct RowCells : SimdCells<Real>
     {
       using Number    = typename SimdCells<Real>::Number;
@@ -42,17 +42,14 @@ namespace softcell
         for (int i = 0; i < 8; ++i)
         {
           const Real *const nodes = field + this->geometry.corners[i];
-          if constexpr (is_one_row)
-            v[i].copy_from(nodes + pack.lower, stdx::element_aligned);
-          else
-            v[i] = stdx::concat(Half(nodes + pack.lower, stdx::element_aligned),
-                                Half(nodes + pack.upper, stdx::element_aligned));
+          v[i]                    = this->joined(Half(nodes + pack.lower, stdx::element_aligned),
+                                                 Half(nodes + pack.upper, stdx::element_aligned));
         }
       }
 
       void add(const Corners<Number> &v, Real *const field) const
       {
-        if constexpr (is_one_row)
+        if (pack.is_one_row)
           add_row(v, field + pack.lower);
         else
         {
@@ -90,10 +87,7 @@ namespace softcell
       {
 #pragma GCC unroll 8
         for (int q = 0; q < 8; ++q)
-          if constexpr (is_full)
-            f(GaussPoint<Real>{q}, pack.point + q, this->geometry.weight);
-          else
-            f(GaussPoint<Real>{q}, pack.point + q, this->load(pack.weights, q));
+          f(GaussPoint<Real>{q}, pack.point + q, this->load(pack.weights, q));
       }
 
       /// Asks for what a pack ahead needs of a field that those on the way do not: rows of a cut
@@ -110,14 +104,14 @@ namespace softcell
           }
       }
 
+      /// The numbers are read once: caches need not keep them.
       [[gnu::always_inline]] void prefetch_points(const Real *const numbers) const
       {
         if (numbers != nullptr)
           for (unsigned int q = 0; q < 8; ++q)
-            __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W);
-        if (pack.ahead->weights != nullptr)
-          for (unsigned int q = 0; q < 8; ++q)
-            __builtin_prefetch(pack.ahead->weights + q * this->W);
+            __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W, 0, 0);
+        for (unsigned int q = 0; q < 8; ++q)
+          __builtin_prefetch(pack.ahead->weights + q * this->W);
       }
     };
 
@@ -195,12 +189,8 @@ namespace softcell
           if constexpr (std::is_same_v<std::decay_t<decltype(pack)>,
                                        typename UniformCells<Real>::PointPack>)
             f(ScatteredCells<Real>{{{}, geometry}, pack}, law, geometry, layer);
-          else if (pack.weights == nullptr)
-            f(RowCells<Real, true, true>{{{}, geometry}, pack}, law, geometry, layer);
-          else if (pack.is_one_row)
-            f(RowCells<Real, true, false>{{{}, geometry}, pack}, law, geometry, layer);
           else
-            f(RowCells<Real, false, false>{{{}, geometry}, pack}, law, geometry, layer);
+            f(RowCells<Real>{{{}, geometry}, pack}, law, geometry, layer);
         });
       });
     }

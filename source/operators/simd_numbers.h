@@ -38,6 +38,16 @@ namespace softcell
       else
         return moved_up(x, std::make_index_sequence<Pack::size()>());
     }
+    /// Both halves in one pack, in registers: stdx::concat writes them to memory and waits for
+    /// them.
+    template <class Half>
+    static Number joined(const Half &lower, const Half &upper)
+    {
+      if constexpr (sizeof(Half) < 16) // no vector of the processor's
+        return std::experimental::concat(lower, upper);
+      else
+        return joined(lower, upper, std::make_index_sequence<W>());
+    }
     template <class Mask>
     static unsigned int count(const Mask &mask)
     {
@@ -52,6 +62,14 @@ namespace softcell
     }
 
   private:
+    template <class Half, std::size_t... lane>
+    static Number
+    joined(const Half &lower, const Half &upper, std::index_sequence<lane...> /*lanes*/)
+    {
+      using Lanes [[gnu::vector_size(sizeof(Half))]] = Real;
+      return Number(
+        __builtin_shufflevector(static_cast<Lanes>(lower), static_cast<Lanes>(upper), lane...));
+    }
     template <class Pack, std::size_t... lane>
     static Pack moved_up(const Pack &x, std::index_sequence<lane...> /*lanes*/)
     {

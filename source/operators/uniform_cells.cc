@@ -118,6 +118,23 @@ namespace softcell
       }
       return pairs;
     }
+
+    /// Runs of one plane less than a pack apart become one: each costs a call.
+    void join_runs(std::vector<std::pair<std::size_t, std::size_t>> &runs, const std::size_t n_rows)
+    {
+      for (std::size_t row = 1, first = 0; row < runs.size(); ++row)
+      {
+        const bool joins = row % n_rows != 0 && runs[first].first < runs[first].second &&
+                           runs[row].first < runs[first].second + NodeLattice::max_width;
+        if (joins)
+        {
+          runs[first].second = runs[row].second;
+          runs[row]          = {0, 0};
+        }
+        else
+          first = row;
+      }
+    }
   } // namespace
 
   CellLattice cell_lattice(const Discretization &discretization)
@@ -229,6 +246,7 @@ namespace softcell
       add_to_runs(cell.place);
     for (const PointCell &cell : cells.point_cells)
       add_to_runs(cell.place);
+    join_runs(runs_, nodes_.n_cells()[1] + 1);
     add_row_packs(cells.gauss_cells, cells.spacing[0] * cells.spacing[1] * cells.spacing[2] / 8);
     add_point_packs(cells.point_cells);
   }
@@ -259,6 +277,7 @@ namespace softcell
                          [&](const double w) { return std::abs(w - full) < 1e-12 * full; });
     };
     std::vector<std::size_t> starts; // of the packs' weights
+    weights_.resize(8 * W, full);    // which full packs share
     row_layers_.assign(nodes_.n_cells()[2] + 1, 0);
     for (const auto &[lower, upper] : paired(halves_of_packs(cells, W / 2), W / 2))
     {
@@ -270,7 +289,7 @@ namespace softcell
       const bool all_full = other == next && lower.size() + upper.size() == W &&
                             std::all_of(lower.begin(), lower.end(), is_full) &&
                             std::all_of(upper.begin(), upper.end(), is_full);
-      starts.push_back(all_full ? std::size_t(-1) : weights_.size());
+      starts.push_back(all_full ? 0 : weights_.size());
       if (all_full)
         continue;
       weights_.resize(weights_.size() + 8 * W);
@@ -285,9 +304,8 @@ namespace softcell
     }
     for (std::size_t p = 0; p < starts.size(); ++p)
     {
-      if (starts[p] != std::size_t(-1))
-        row_packs_[p].weights = &weights_[starts[p]];
-      row_packs_[p].ahead = &row_packs_[std::min(p + 2, starts.size() - 1)];
+      row_packs_[p].weights = &weights_[starts[p]];
+      row_packs_[p].ahead   = &row_packs_[std::min(p + 2, starts.size() - 1)];
     }
     std::partial_sum(row_layers_.begin(), row_layers_.end(), row_layers_.begin());
   }

@@ -72,7 +72,7 @@ namespace softcell
       std::size_t lower, upper; // entries of the lowest nodes of both halves' first cells
       bool is_one_row;          // upper follows lower
       std::size_t point;        // number of its first pack of points
-      const Real *weights;      // (8, W) Units: m^3; null if it is a row of full cells
+      const Real *weights;      // (8, W) Units: m^3; packs of full cells share theirs
       const RowPack *ahead;     // the pack after the next one
     };
 
