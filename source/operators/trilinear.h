@@ -60,9 +60,7 @@ namespace softcell
       Number d[4], lower[4], upper[4]; // along x: differences, and values at the points
 #pragma GCC unroll 4
       for (int i = 0; i < 4; ++i)
-      {
         d[i] = interpolate(v[2 * i], v[2 * i + 1], lower[i], upper[i]);
-      }
       Number e[4];
       interpolate(d[0], d[1], e[0], e[1]);
       interpolate(d[2], d[3], e[2], e[3]);

@@ -148,9 +148,9 @@ namespace softcell
     }
 
   private:
-    /// Layers that a thread takes at once; with two, the last ones of two slabs have no nodes in
-    /// common.
-    static constexpr int slab = 4;
+    /// Layers that a thread takes at once: as few as leave the last ones of two slabs without
+    /// common nodes, so that no thread waits for long at the end.
+    static constexpr int slab = 2;
 
     /// @param full  the weights of a full cell. Units: m^3
     void add_row_packs(const std::vector<GaussCell> &cells, double full);
