@@ -196,6 +196,17 @@ namespace
            (s[0] * s[0] * s[1] * s[1]);
   }
 
+  // Under a tension from all sides f is negative. It makes the exact tangent indefinite, and
+  // lambda + f - f_0 negative.
+  TEST(MatrixFreeElasticity, DefiniteTangentIsDefiniteUnderTension)
+  {
+    const Matrix3<double> F{{1.7, 0, 0, 0, 1.7, 0, 0, 0, 1.7}},
+      longer{{1.7, 0, 0, 0, -1.7, 0, 0, 0, 0}};
+    EXPECT_LT(energy_of(longer, F, soft, Tangent::exact), -1);
+    EXPECT_GT(energy_of(longer, F, soft, Tangent::definite), -1e-9);
+    EXPECT_GT(energy_of(F, F, soft, Tangent::definite), -1e-9);
+  }
+
   // 0 would be left if no more was left out than must be; the bound of s_1 s_2 is 0.86 of it at
   // least.
   TEST(MatrixFreeElasticity, DefiniteTangentLeavesOutLittleMoreThanItMust)

@@ -126,7 +126,9 @@ namespace
         ASSERT_EQ(other.size(), history.size());
         rounding = std::max(rounding, std::abs(other[i] / history[i] - 1));
       }
-      // of a V-cycle there is more of it, but not ten times as much
+      if (rounding > 0.01) // what follows tells of rounding alone
+        break;
+      // the kernels round more often than the displacement is, but not ten times as much
       EXPECT_NEAR(cg.history()[i] / history[i], 1, 10 * rounding) << "residual " << history[i];
     }
     copy(expected, body.cells->entries, field);
