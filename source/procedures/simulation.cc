@@ -96,14 +96,20 @@ namespace softcell
     /// @throws BadInput if what runs without a matrix has no background grid.
     void check_matrix_free(const Parameters &parameters)
     {
+      if (!parameters.linear_solver.is_matrix_free())
+        return;
       const std::string &method = parameters.discretization.method;
-      if (parameters.linear_solver.is_matrix_free() &&
-          (method == "tetrahedra" || method == "hexahedra"))
-        throw BadInput("Discretization/Method = " + method + " has no background grid, which '" +
-                       (parameters.procedure.mode == "dynamic"
-                          ? "Solver/Mode = dynamic"
-                          : "Solver/Preconditioner = geometric multigrid") +
-                       "' needs; choose weighted cell, moment fitting or sparse grid.");
+      const std::string what    = parameters.procedure.mode == "dynamic"
+                                    ? "'Solver/Mode = dynamic'"
+                                    : "'Solver/Preconditioner = geometric multigrid'";
+      if (method == "tetrahedra" || method == "hexahedra")
+        throw BadInput("Discretization/Method = " + method + " has no background grid, which " +
+                       what + " needs; choose weighted cell, moment fitting or sparse grid.");
+      if (parameters.discretization.refinement.steps > 0)
+        throw BadInput("Discretization/Refinement steps = " +
+                       std::to_string(parameters.discretization.refinement.steps) +
+                       " makes cells of several sizes, where " + what +
+                       " needs cells of one; give 'Refinement steps = 0'.");
     }
 
     /// The same run with cells of twice the edge.

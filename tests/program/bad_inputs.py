@@ -200,6 +200,8 @@ BAD_INPUTS = [
      ["geometric multigrid", "Discretization/Method = tetrahedra", "weighted cell"]),
     ("motion of tetrahedra", [*DYNAMIC, "Discretization/Method = tetrahedra"], None,
      ["dynamic", "Discretization/Method = tetrahedra", "weighted cell"]),
+    ("multigrid on a grid to be refined", [*MULTIGRID, "Discretization/Cells = 8", "Discretization/Refinement steps = 1"], None,
+     ["geometric multigrid", "Refinement steps = 0"]),
     ("multigrid on a refined grid", [*MULTIGRID, "Discretization/Cells = 8", "Discretization/Surface refinement = 1"], None,
      ["geometric multigrid", "Surface refinement = 0"]),
     ("multigrid with a fictitious material", [*MULTIGRID, "Discretization/Alpha = 1e-6"], None,
