@@ -2,7 +2,7 @@
 // What the threads of a brick of cells do, for host and device.
 #pragma once
 
-#include "cell_kernels.h"
+#include "cell_diagonal.h"
 
 #include <softcell/operators/cell_bricks.h>
 

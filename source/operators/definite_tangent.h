@@ -25,9 +25,9 @@ namespace softcell
   };
 
   /// With A = dF F^-1 in the principal axes and stretches s, dF : dP without lambda is the sum of
-  /// mu s_j^2 A_ij^2 + f A_ij A_ji with f = mu - lambda v, which may be from -mu s_1^2 to mu s_1
-  /// s_2 with the smallest ones. In their place stand lower bounds, at least 3/4 of s_1^2 and 0.86
-  /// of s_1 s_2 = J / s_3, by Laguerre's bounds of C's eigenvalues.
+  /// mu s_j^2 A_ij^2 + f A_ij A_ji with f = mu - lambda v, which may be from -mu s_1^2 to
+  /// mu s_1 s_2 with the smallest ones. In their place stand lower bounds, at least 3/4 of s_1^2
+  /// and 0.86 of s_1 s_2 = J / s_3, by Laguerre's bounds of C's eigenvalues.
   template <class Real, class Number>
   SOFTCELL_HOST_DEVICE DefiniteModuli<Number>
   definite_moduli(const NeoHookean<Real> &law, const Matrix3<Number> &F, const Number &pressure)

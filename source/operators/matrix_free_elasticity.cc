@@ -3,7 +3,7 @@
 
 #include <softcell/operators/matrix_free_elasticity.h>
 
-#include "cell_kernels.h"
+#include "cell_diagonal.h"
 #include "simd_numbers.h"
 
 #include <softcell/base/exceptions.h>

@@ -93,7 +93,7 @@ namespace softcell
                        parameters.discretization.mesh.file + "; remove one of the two.");
     }
 
-    /// @throws BadInput if what runs without a matrix has no background grid.
+    /// @throws BadInput if what runs without a matrix has no background grid, or one to be refined.
     void check_matrix_free(const Parameters &parameters)
     {
       if (!parameters.linear_solver.is_matrix_free())

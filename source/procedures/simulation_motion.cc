@@ -189,7 +189,7 @@ namespace softcell
       std::lround(std::ceil(end_time(parameters_) * dynamics.steps_per_second - 1e-6));
     const unsigned int every = parameters_.output.every;
     typename LatticeMotion<Real>::Effort effort;
-    Clock::duration telling{}; // the tool's forces, in the last step
+    Clock::duration forces_took{}; // the tool's forces, in the last step
     effort.tolerance      = parameters_.linear_solver.tolerance;
     effort.max_iterations = parameters_.linear_solver.max_iterations;
     std::ostringstream table;
@@ -200,13 +200,13 @@ namespace softcell
       const auto begin = Clock::now();
       if (dynamics.frame_budget > 0)
         effort.deadline =
-          begin + std::chrono::microseconds(std::lround(1e3 * dynamics.frame_budget)) - telling;
+          begin + std::chrono::microseconds(std::lround(1e3 * dynamics.frame_budget)) - forces_took;
       const auto step =
         motion.advance(dt, outside.force(t - (1 - middle) * dt), outside.imposed(t), effort);
       const auto solved      = Clock::now();
       motion_.forces         = outside.tool_forces(t, now.displacement(), now.reaction());
       const auto end         = Clock::now();
-      telling                = end - solved;
+      forces_took            = end - solved;
       const double ms        = milliseconds(begin, end);
       motion_.slowest_ms     = std::max(motion_.slowest_ms, ms);
       motion_.kinetic_energy = motion.kinetic_energy();
