@@ -42,8 +42,9 @@ namespace softcell
         for (int i = 0; i < 8; ++i)
         {
           const Real *const nodes = field + this->geometry.corners[i];
-          v[i]                    = this->joined(Half(nodes + pack.lower, stdx::element_aligned),
-                                                 Half(nodes + pack.upper, stdx::element_aligned));
+          v[i] = pack.is_one_row ? Number(nodes + pack.lower, stdx::element_aligned)
+                                 : this->joined(Half(nodes + pack.lower, stdx::element_aligned),
+                                                Half(nodes + pack.upper, stdx::element_aligned));
         }
       }
 
@@ -90,13 +91,13 @@ namespace softcell
           f(GaussPoint<Real>{q}, pack.point + q, this->load(pack.weights, q));
       }
 
-      /// Asks for what a pack ahead needs of a field that those on the way do not: rows of a cut
-      /// body begin anywhere, which the processor's own prefetching does not foresee. Always
-      /// inlined, as GCC takes calls of a function that does no more than this for dead.
+      /// Asks for a field in all four rows of nodes of a pack ahead: rows of a cut body begin
+      /// anywhere, which the processor's own prefetching does not foresee. Always inlined, as GCC
+      /// takes calls of a function that does no more than this for dead.
       [[gnu::always_inline]] void prefetch(const LatticeVector<Real> &field) const
       {
         for (unsigned int c = 0; c < 3; ++c)
-          for (const int corner : {2, 6})
+          for (const int corner : {0, 2, 4, 6})
           {
             const Real *const nodes = field.component(c) + this->geometry.corners[corner];
             __builtin_prefetch(nodes + pack.ahead->lower);
@@ -104,12 +105,14 @@ namespace softcell
           }
       }
 
-      /// The numbers are read once: caches need not keep them.
-      [[gnu::always_inline]] void prefetch_points(const Real *const numbers) const
+      /// Asks for the weights of a pack ahead and for its moduli, which are read once: caches need
+      /// not keep them.
+      [[gnu::always_inline]] void prefetch_points(const PointModuli<const Real> &moduli) const
       {
-        if (numbers != nullptr)
-          for (unsigned int q = 0; q < 8; ++q)
-            __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W, 0, 0);
+        for (const Real *const numbers : {moduli.pressure, moduli.added})
+          if (numbers != nullptr)
+            for (unsigned int q = 0; q < 8; ++q)
+              __builtin_prefetch(numbers + (pack.ahead->point + q) * this->W, 0, 0);
         for (unsigned int q = 0; q < 8; ++q)
           __builtin_prefetch(pack.ahead->weights + q * this->W);
       }
@@ -149,7 +152,7 @@ namespace softcell
       }
 
       void prefetch(const LatticeVector<Real> &) const {}
-      void prefetch_points(const Real *) const {}
+      void prefetch_points(const PointModuli<const Real> &) const {}
     };
 
     template <class Real>
@@ -324,8 +327,7 @@ namespace softcell
                     cells.prefetch(u_);
                     cells.prefetch(x);
                     cells.prefetch(y);
-                    cells.prefetch_points(moduli.pressure);
-                    cells.prefetch_points(moduli.added);
+                    cells.prefetch_points(moduli);
                     add_tangent_action(cells, law, geometry, components(u_), moduli, components(x),
                                        components(y));
                   });
