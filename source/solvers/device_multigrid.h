@@ -8,6 +8,7 @@
 
 #include <softcell/base/exceptions.h>
 #include <softcell/solvers/cuda_multigrid.h>
+#include <softcell/solvers/lanczos.h>
 
 namespace softcell
 {
@@ -109,12 +110,9 @@ namespace softcell
     invert_coarsest();
   }
 
-  /// By a few steps of conjugate gradients.
   template <class Real, class Device>
   void CudaMultigrid<Real, Device>::estimate_eigenvalue(Level &level)
   {
-    constexpr unsigned int n_steps = 8;
-    constexpr Real margin          = 1.1; // for what is missing after as many
     level.tangent.diagonal(level.inverse_diagonal);
     level.for_each_entry(
       InvertAction<Real>{level.nodes.n_entries, level.held.data(), level.inverse_diagonal.data()});
@@ -125,11 +123,11 @@ namespace softcell
       nodes.d                   = z.data();
       level.for_each_entry(PreconditionAction<Real>{nodes});
     };
-    level.cg.iterate(K, D, level.d, level.rough_field, 0, n_steps);
+    level.cg.iterate(K, D, level.d, level.rough_field, 0, n_eigenvalue_steps);
     const double largest = level.cg.largest_eigenvalue();
     if (!(largest > 0))
       throw NotConverged("geometric multigrid met a grid whose tangent is not positive definite");
-    level.largest_eigenvalue = margin * largest;
+    level.largest_eigenvalue = eigenvalue_margin * largest;
   }
 
   template <class Real, class Device>

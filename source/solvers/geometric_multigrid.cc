@@ -136,19 +136,16 @@ namespace softcell
     invert_coarsest();
   }
 
-  /// By a few steps of conjugate gradients.
   template <class Real>
   void GeometricMultigrid<Real>::estimate_eigenvalue(Level &level) const
   {
-    constexpr unsigned int n_steps  = 8;
-    constexpr Real margin           = 1.1; // for what is missing after as many
     const LatticeUnknowns &unknowns = level.unknowns;
     LatticeVector<Real> p(unknowns.nodes());
     level.r = rough_field<Real>(unknowns);
 
     LanczosMatrix lanczos;
     double rz_before = 1;
-    for (unsigned int step = 0; step < n_steps; ++step)
+    for (unsigned int step = 0; step < n_eigenvalue_steps; ++step)
     {
       level.precondition(0, 1);
       const double rz  = unknowns.dot(level.r, level.d);
@@ -166,7 +163,7 @@ namespace softcell
     const double largest = lanczos.extreme_eigenvalues().second;
     if (!(largest > 0))
       throw NotConverged("geometric multigrid met a grid whose tangent is not positive definite");
-    level.largest_eigenvalue = margin * largest;
+    level.largest_eigenvalue = eigenvalue_margin * largest;
   }
 
   template <class Real>
