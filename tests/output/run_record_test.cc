@@ -84,6 +84,7 @@ TEST(RunRecord, KeepsTheFirstFailure)
     std::remove(file);
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(write_on_all("without a file before"), "without a file before");
+  MPI_Barrier(MPI_COMM_WORLD);
   if (is_root)
     std::remove(file);
 }
