@@ -51,12 +51,12 @@ namespace softcell
     return problem(geometry, parameters);
   }
 
-  // A segmented liver, if its image is at hand: no discretization otherwise.
+  // A segmented liver, if scripts/fetch-liver has fetched its image: no discretization otherwise.
   inline Problem liver(const std::string &method, const unsigned int cells)
   {
     GeometryParameters geometry;
     geometry.type   = "image";
-    geometry.file   = SOFTCELL_ORGANS "/liver_cgal/liver_seg_2mm.mhd";
+    geometry.file   = SOFTCELL_LIVER;
     geometry.scale  = 0.001;
     geometry.labels = {255};
     if (!std::filesystem::exists(geometry.file))
