@@ -111,6 +111,18 @@ namespace softcell
   }
 
   template <class Real, class Device>
+  template <class Number>
+  void CudaMultigrid<Real, Device>::set_smoother(const Field<Number> &u, const Tangent tangent)
+  {
+    recorded_cycle_.clear();
+    std::vector<Number> numbers(u.size());
+    u.copy_to(numbers.data());
+    if (levels_.size() > 1)
+      levels_[0]->tangent.set_state(Field<Real>(std::vector<Real>(numbers.begin(), numbers.end())),
+                                    tangent);
+  }
+
+  template <class Real, class Device>
   void CudaMultigrid<Real, Device>::estimate_eigenvalue(Level &level)
   {
     level.tangent.diagonal(level.inverse_diagonal);

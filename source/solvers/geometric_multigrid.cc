@@ -137,6 +137,13 @@ namespace softcell
   }
 
   template <class Real>
+  void GeometricMultigrid<Real>::set_smoother(const LatticeVector<Real> &u, const Tangent tangent)
+  {
+    if (levels_.size() > 1)
+      levels_[0]->tangent.elasticity().set_state(u, tangent);
+  }
+
+  template <class Real>
   void GeometricMultigrid<Real>::estimate_eigenvalue(Level &level) const
   {
     const LatticeUnknowns &unknowns = level.unknowns;

@@ -109,6 +109,7 @@ namespace
     CudaMultigrid<float, TypeParam> multigrid(*body.cells, material, body.held,
                                               MatrixFreeSolver::smoother_degree);
     multigrid.set_state(device_u);
+    multigrid.set_smoother(device_u, Tangent::exact);
     CudaElasticity<double, TypeParam> tangent(CellBricks<double>(*body.cells), material);
     tangent.hold(multigrid.held());
     tangent.set_state(device_u);

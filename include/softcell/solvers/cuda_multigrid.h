@@ -40,6 +40,10 @@ namespace softcell
     template <class Number>
     void set_state(const Field<Number> &u);
 
+    /// See GeometricMultigrid::set_smoother().
+    template <class Number>
+    void set_smoother(const Field<Number> &u, Tangent tangent);
+
     /// y = K^-1 x, nearly, for an x that is 0 in unknowns that are not free.
     template <class Number>
     void vmult(Field<Number> &y, const Field<Number> &x);

@@ -15,8 +15,8 @@ namespace softcell
   /// V-cycle over a grid of cells and those with twice, four times, ... the edges.
   ///
   /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
-  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent. The
-  /// displacement is smoothed where coarse cells are nearly inside out; if that is not enough,
+  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent.
+  /// The displacement is smoothed where coarse cells are nearly inside out; if that is not enough,
   /// their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
   /// tangent at rest is the same.
   ///
@@ -43,6 +43,12 @@ namespace softcell
     /// Takes the displacement at which the tangents are formed, and the supports' tangent.
     /// @throws InvertedPoint, or NotConverged if a grid's tangent is not positive definite
     void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});
+
+    /// Gives the finest grid's smoother this tangent at the displacement of set_state(), which gave
+    /// it the definite one. The exact one suits a tangent that is hardly definite. Where a
+    /// polynomial leaves p of an eigenvalue e, smoothing twice is (1 - p^2) / e: also positive
+    /// where e < 0 and p > 1, but large.
+    void set_smoother(const LatticeVector<Real> &u, Tangent tangent);
 
     /// y = K^-1 x, nearly, where x is taken as 0 in unknowns that are not free. Nodes without cells
     /// keep their y.

@@ -9,7 +9,9 @@
 
 namespace softcell
 {
-  /// Conjugate gradients in double precision with geometric multigrid in single precision.
+  /// Conjugate gradients in double precision with geometric multigrid in single precision, whose
+  /// smoother has the exact tangent; where they meet negative curvature they start again with the
+  /// definite one.
   ///
   /// The body's own stiffness is no matrix but that of a displacement, set_state(); what supports
   /// add to it is the matrix of set_matrix(). The constrained unknowns are always the same.
@@ -61,8 +63,8 @@ namespace softcell
     unsigned int iterate(double b_norm) const;
 
     LinearSolverParameters parameters_;
-    std::vector<std::size_t> entries_; // (nodes) in a LatticeField
-    GeometricMultigrid<float> multigrid_;
+    std::vector<std::size_t> entries_;            // (nodes) in a LatticeField
+    mutable GeometricMultigrid<float> multigrid_; // its smoother changes
     LatticeTangent<double> tangent_;
     LatticeVector<float> state_;
     mutable LatticeVector<float> float_r_, float_z_;
