@@ -100,35 +100,33 @@ namespace softcell
 
   unsigned int MatrixFreeSolver::solve(Vector &x, const Vector &b) const
   {
-    copy(b, entries_, r_);
-    multigrid_.unknowns().hold(r_);
-    const double b_norm = std::sqrt(finite_dot(r_, r_));
-    x_                  = LatticeVector<double>(x_.lattice());
     history_.clear();
-    lanczos_.clear();
     unsigned int iterations = 0;
     // Where the tangent is far from definite, the exact smoother shows little but that.
     for (const Tangent smoother : {Tangent::exact, Tangent::definite})
-      if (b_norm > 0 && (history_.empty() || history_.back() > parameters_.tolerance))
+      if (history_.empty() || history_.back() > parameters_.tolerance)
       {
         multigrid_.set_smoother(state_, smoother);
-        copy(b, entries_, r_);
-        multigrid_.unknowns().hold(r_);
-        iterations += iterate(b_norm);
+        iterations += iterate(b);
       }
     x.zero_out_ghost_values();
     copy(x_, entries_, x);
     return iterations;
   }
 
-  /// Solves K x = r from x = 0.
-  unsigned int MatrixFreeSolver::iterate(const double b_norm) const
+  /// Solves K x = b from x = 0, or up to negative curvature.
+  unsigned int MatrixFreeSolver::iterate(const Vector &b) const
   {
     history_.clear();
     lanczos_.clear();
     x_ = p_                         = LatticeVector<double>(x_.lattice());
     const LatticeUnknowns &unknowns = multigrid_.unknowns();
-    const auto axpy                 = [&](auto &y, const double a, const auto &x) {
+    copy(b, entries_, r_);
+    unknowns.hold(r_);
+    const double b_norm = std::sqrt(finite_dot(r_, r_));
+    if (b_norm == 0)
+      return 0;
+    const auto axpy = [&](auto &y, const double a, const auto &x) {
       unknowns.for_each(y, x, [a](double &y_i, const double x_i) { y_i += a * x_i; });
     };
     double rz_before = 1;

@@ -122,8 +122,9 @@ namespace
       copy(body.bent(0.02, stretch), body.cells->entries, u);
       multigrid.set_state(u);
       LatticeVector<double> Mx(unknowns.nodes()), My(unknowns.nodes());
-      for (unsigned int seed = 0; seed < 5; ++seed)
+      for (unsigned int seed = 0; seed < 10; ++seed)
       {
+        multigrid.set_smoother(u, seed < 5 ? Tangent::definite : Tangent::exact);
         const auto x = rough_field<double>(unknowns, seed),
                    y = rough_field<double>(unknowns, seed + 100);
         multigrid.vmult(Mx, x);

@@ -15,10 +15,10 @@ namespace softcell
   /// V-cycle over a grid of cells and those with twice, four times, ... the edges.
   ///
   /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
-  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent.
-  /// The displacement is smoothed where coarse cells are nearly inside out; if that is not enough,
-  /// their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is Neo-Hookean, whose
-  /// tangent at rest is the same.
+  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent
+  /// and set_smoother(). The displacement is smoothed where coarse cells are nearly inside out; if
+  /// that is not enough, their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is
+  /// Neo-Hookean, whose tangent at rest is the same.
   ///
   /// The smoother is Chebyshev's polynomial of the fourth kind over the inverted diagonal blocks,
   /// before and after, of a degree that doubles from grid to grid: coarse corrections become nearly

@@ -60,7 +60,7 @@ namespace softcell
   private:
     double finite_dot(const LatticeVector<double> &x, const LatticeVector<double> &y) const;
     [[noreturn]] void fail(const std::string &what) const;
-    unsigned int iterate(double b_norm) const;
+    unsigned int iterate(const Vector &b) const;
 
     LinearSolverParameters parameters_;
     std::vector<std::size_t> entries_;            // (nodes) in a LatticeField
