@@ -87,6 +87,12 @@ namespace softcell
   void CudaElasticity<Real, Device>::set_state(const Field &u, const Tangent tangent)
   {
     u_.copy_from(u);
+    set_tangent(tangent);
+  }
+
+  template <class Real, class Device>
+  void CudaElasticity<Real, Device>::set_tangent(const Tangent tangent)
+  {
     if (tangent == Tangent::exact)
       added_moduli_ = Field();
     else if (added_moduli_.size() != pressures_.size())

@@ -304,6 +304,12 @@ namespace softcell
   void MatrixFreeElasticity<Real>::set_state(const LatticeVector<Real> &u, const Tangent tangent)
   {
     u_ = u;
+    set_tangent(tangent);
+  }
+
+  template <class Real>
+  void MatrixFreeElasticity<Real>::set_tangent(const Tangent tangent)
+  {
     if (tangent == Tangent::exact)
       added_moduli_.clear();
     else
@@ -312,8 +318,9 @@ namespace softcell
     std::vector<unsigned int> n_inverted(cells_.nodes().n_cells()[2], 0);
     for_each_pack(cells_, material_, nothing_to_begin,
                   [&](const auto &cells, const auto &law, const auto &geometry, const int layer) {
-                    cells.prefetch(u);
-                    n_inverted[layer] += keep_moduli(cells, law, geometry, components(u), moduli);
+                    cells.prefetch(u_);
+                    n_inverted[layer] +=
+                      keep_moduli(cells, law, geometry, components(std::as_const(u_)), moduli);
                   });
     throw_if_inverted(n_inverted);
   }

@@ -93,7 +93,7 @@ namespace softcell
     const Real *p, *Ap;
     Real *x, *r;
     const double *pAp, *rz;
-    bool is_first;
+    bool is_first, goes_on;
 
     SOFTCELL_HOST_DEVICE double operator()(const std::size_t i) const
     {
@@ -107,7 +107,7 @@ namespace softcell
     /// At negative curvature 0, but in the first iteration as long as if it had the other sign.
     SOFTCELL_HOST_DEVICE double length(const double curvature) const
     {
-      if (curvature > 0)
+      if (curvature > 0 || goes_on)
         return *rz / curvature;
       return is_first ? (curvature < 0 ? -*rz / curvature : 1) : 0;
     }
@@ -170,7 +170,8 @@ namespace softcell
                                                             Field &x,
                                                             const Field &b,
                                                             const double tolerance,
-                                                            const unsigned int max_iterations)
+                                                            const unsigned int max_iterations,
+                                                            const bool goes_on)
   {
     history_.clear();
     curvatures_.clear();
@@ -190,9 +191,10 @@ namespace softcell
       for_each_entry<Device>(DirectionAction<Real>{z_.data(), p_.data(), rz, is_first}, p_.size());
       A(z_, p_);
       sum_up(ProductTerms<Real>{p_.data(), z_.data()}, pAp);
-      sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), pAp, rz, is_first}, rr);
+      sum_up(StepTerms<Real>{p_.data(), z_.data(), x.data(), r_.data(), pAp, rz, is_first, goes_on},
+             rr);
       const std::vector<double> scalars = finite_numbers<Device>(scalars_.data(), 2);
-      if (scalars[0] <= 0) // A is indefinite, or M
+      if (scalars[0] <= 0 && !goes_on) // A is indefinite, or M
       {
         if (is_first && finite_numbers<Device>(rz, 1)[0] <= 0)
           throw NotConverged("conjugate gradients cannot start: the preconditioner is not "

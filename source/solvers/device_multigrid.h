@@ -86,13 +86,14 @@ namespace softcell
 
   template <class Real, class Device>
   template <class Number>
-  void CudaMultigrid<Real, Device>::set_state(const Field<Number> &u)
+  void CudaMultigrid<Real, Device>::set_state(const Field<Number> &u, const Tangent smoother)
   {
+    smoother_ = levels_.size() > 1 ? smoother : Tangent::definite;
     recorded_cycle_.clear();
     std::vector<Number> numbers(u.size());
     u.copy_to(numbers.data());
     std::vector<Real> state(numbers.begin(), numbers.end());
-    levels_[0]->tangent.set_state(Field<Real>(state), Tangent::definite);
+    levels_[0]->tangent.set_state(Field<Real>(state), smoother_);
     for (unsigned int l = 1; l < levels_.size(); ++l)
     {
       state = grids_.coarse(l - 1, state);
@@ -106,24 +107,23 @@ namespace softcell
       }
     }
     for (unsigned int l = 0; l + 1 < levels_.size(); ++l)
-      estimate_eigenvalue(*levels_[l]);
+      estimate_eigenvalue(*levels_[l], l == 0 ? smoother_ : Tangent::definite);
     invert_coarsest();
   }
 
   template <class Real, class Device>
-  template <class Number>
-  void CudaMultigrid<Real, Device>::set_smoother(const Field<Number> &u, const Tangent tangent)
+  void CudaMultigrid<Real, Device>::set_smoother(const Tangent tangent)
   {
+    if (levels_.size() == 1 || tangent == smoother_)
+      return;
     recorded_cycle_.clear();
-    std::vector<Number> numbers(u.size());
-    u.copy_to(numbers.data());
-    if (levels_.size() > 1)
-      levels_[0]->tangent.set_state(Field<Real>(std::vector<Real>(numbers.begin(), numbers.end())),
-                                    tangent);
+    smoother_ = tangent;
+    levels_[0]->tangent.set_tangent(tangent);
+    estimate_eigenvalue(*levels_[0], tangent);
   }
 
   template <class Real, class Device>
-  void CudaMultigrid<Real, Device>::estimate_eigenvalue(Level &level)
+  void CudaMultigrid<Real, Device>::estimate_eigenvalue(Level &level, const Tangent tangent)
   {
     level.tangent.diagonal(level.inverse_diagonal);
     level.for_each_entry(
@@ -135,7 +135,8 @@ namespace softcell
       nodes.d                   = z.data();
       level.for_each_entry(PreconditionAction<Real>{nodes});
     };
-    level.cg.iterate(K, D, level.d, level.rough_field, 0, n_eigenvalue_steps);
+    level.cg.iterate(K, D, level.d, level.rough_field, 0, n_eigenvalue_steps,
+                     tangent == Tangent::exact);
     const double largest = level.cg.largest_eigenvalue();
     if (!(largest > 0))
       throw NotConverged("geometric multigrid met a grid whose tangent is not positive definite");

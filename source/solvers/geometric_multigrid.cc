@@ -104,10 +104,12 @@ namespace softcell
 
   template <class Real>
   void GeometricMultigrid<Real>::set_state(const LatticeVector<Real> &u,
-                                           LatticeMatrix<Real> supports)
+                                           LatticeMatrix<Real> supports,
+                                           const Tangent smoother)
   {
+    smoother_                 = levels_.size() > 1 ? smoother : Tangent::definite;
     LatticeVector<Real> state = u;
-    levels_[0]->tangent.elasticity().set_state(state, Tangent::definite);
+    levels_[0]->tangent.elasticity().set_state(state, smoother_);
     levels_[0]->tangent.supports() = std::move(supports);
     for (unsigned int l = 1; l < levels_.size(); ++l)
     {
@@ -131,20 +133,23 @@ namespace softcell
     for (unsigned int l = 0; l + 1 < levels_.size(); ++l)
     {
       levels_[l]->tangent.inverse_diagonal(levels_[l]->inverse_diagonal);
-      estimate_eigenvalue(*levels_[l]);
+      estimate_eigenvalue(*levels_[l], l == 0 ? smoother_ : Tangent::definite);
     }
     invert_coarsest();
   }
 
   template <class Real>
-  void GeometricMultigrid<Real>::set_smoother(const LatticeVector<Real> &u, const Tangent tangent)
+  void GeometricMultigrid<Real>::set_smoother(const Tangent tangent)
   {
-    if (levels_.size() > 1)
-      levels_[0]->tangent.elasticity().set_state(u, tangent);
+    if (levels_.size() == 1 || tangent == smoother_)
+      return;
+    smoother_ = tangent;
+    levels_[0]->tangent.elasticity().set_tangent(tangent);
+    estimate_eigenvalue(*levels_[0], tangent);
   }
 
   template <class Real>
-  void GeometricMultigrid<Real>::estimate_eigenvalue(Level &level) const
+  void GeometricMultigrid<Real>::estimate_eigenvalue(Level &level, const Tangent tangent) const
   {
     const LatticeUnknowns &unknowns = level.unknowns;
     LatticeVector<Real> p(unknowns.nodes());
@@ -160,7 +165,7 @@ namespace softcell
       unknowns.for_each(p, level.d, [&](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
       level.tangent.vmult(level.Kd, p);
       const double curvature = unknowns.dot(p, level.Kd) / rz;
-      if (!(rz > 0 && curvature > 0))
+      if (!(rz > 0) || (tangent == Tangent::definite && !(curvature > 0)))
         break;
       unknowns.for_each(level.r, level.Kd,
                         [&](Real &r_i, const Real Kp_i) { r_i -= Kp_i / Real(curvature); });

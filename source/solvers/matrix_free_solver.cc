@@ -50,6 +50,7 @@ namespace softcell
         float_z_(cells.nodes),
         x_(cells.nodes),
         r_(cells.nodes),
+        z_(cells.nodes),
         p_(cells.nodes),
         Kp_(cells.nodes)
   {
@@ -81,7 +82,7 @@ namespace softcell
                                     const std::vector<unsigned int> & /*constrained*/)
   {
     tangent_.supports() = LatticeMatrix<double>(supports, entries_, x_.lattice());
-    multigrid_.set_state(state_, LatticeMatrix<float>(tangent_.supports()));
+    multigrid_.set_state(state_, LatticeMatrix<float>(tangent_.supports()), Tangent::exact);
   }
 
   double MatrixFreeSolver::finite_dot(const LatticeVector<double> &x,
@@ -100,26 +101,23 @@ namespace softcell
 
   unsigned int MatrixFreeSolver::solve(Vector &x, const Vector &b) const
   {
-    history_.clear();
-    unsigned int iterations = 0;
-    // Where the tangent is far from definite, the exact smoother shows little but that.
-    for (const Tangent smoother : {Tangent::exact, Tangent::definite})
-      if (history_.empty() || history_.back() > parameters_.tolerance)
-      {
-        multigrid_.set_smoother(state_, smoother);
-        iterations += iterate(b);
-      }
+    unsigned int iterations = iterate(Tangent::exact, b);
+    if (is_indefinite_) // of which the exact smoother shows little else
+      iterations += iterate(Tangent::definite, b);
     x.zero_out_ghost_values();
     copy(x_, entries_, x);
     return iterations;
   }
 
   /// Solves K x = b from x = 0, or up to negative curvature.
-  unsigned int MatrixFreeSolver::iterate(const Vector &b) const
+  unsigned int MatrixFreeSolver::iterate(const Tangent smoother, const Vector &b) const
   {
+    multigrid_.set_smoother(smoother);
+    is_indefinite_ = false;
     history_.clear();
     lanczos_.clear();
-    x_ = p_                         = LatticeVector<double>(x_.lattice());
+    std::fill(x_.entries().begin(), x_.entries().end(), 0.);
+    std::fill(p_.entries().begin(), p_.entries().end(), 0.);
     const LatticeUnknowns &unknowns = multigrid_.unknowns();
     copy(b, entries_, r_);
     unknowns.hold(r_);
@@ -134,15 +132,18 @@ namespace softcell
     {
       unknowns.for_each(float_r_, r_, [](float &y_i, const double x_i) { y_i = float(x_i); });
       multigrid_.vmult(float_z_, float_r_);
-      unknowns.for_each(Kp_, float_z_, [](double &y_i, const float x_i) { y_i = x_i; });
-      const double rz    = finite_dot(r_, Kp_); // as yet z
+      unknowns.for_each(z_, float_z_, [](double &y_i, const float x_i) { y_i = x_i; });
+      const double rz    = finite_dot(r_, z_);
       const double share = iteration > 1 ? rz / rz_before : 0.;
-      unknowns.for_each(p_, Kp_,
+      unknowns.for_each(p_, z_,
                         [share](double &p_i, const double z_i) { p_i = share * p_i + z_i; });
       tangent_.vmult(Kp_, p_);
       const double curvature = finite_dot(p_, Kp_);
-      if (curvature <= 0) // the tangent is indefinite
+      is_indefinite_         = curvature <= 0 || rz <= 0; // the tangent, or multigrid as rounded
+      if (is_indefinite_)
       {
+        if (iteration == 1 && rz <= 0 && smoother == Tangent::definite)
+          fail("cannot start: the preconditioner is not positive definite");
         if (iteration == 1) // as long as if the curvature had the other sign
           axpy(x_, curvature < 0 ? -rz / curvature : 1., p_);
         lanczos_.clear();
@@ -172,6 +173,6 @@ namespace softcell
   std::size_t MatrixFreeSolver::memory() const
   {
     return multigrid_.memory() + tangent_.memory() +
-           x_.entries().size() * (4 * sizeof(double) + 3 * sizeof(float));
+           x_.entries().size() * (5 * sizeof(double) + 3 * sizeof(float));
   }
 } // namespace softcell

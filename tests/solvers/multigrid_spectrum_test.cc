@@ -6,6 +6,8 @@
 #include <softcell/solvers/lanczos.h>
 #include <softcell/solvers/matrix_free_solver.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,6 +48,16 @@ namespace
       return LatticeVector<double>(cells.nodes);
     }
 
+    /// A cell on the edge squeezed to a part of its height, from above.
+    LatticeVector<double> flat_at_the_edge(const double height) const
+    {
+      LatticeVector<double> u = rest();
+      for (int j = 0; j <= 1; ++j)
+        for (int i = 0; i <= 1; ++i)
+          u.component(2)[cells.nodes.entry(i, j, cells.nodes.n_cells()[2] - 1)] = height - 1;
+      return u;
+    }
+
     /// Extreme eigenvalues of the definite tangent times a V-cycle, from conjugate gradients, whose
     /// last ten steps change no more than the fourth digit.
     std::pair<double, double> spectrum(const Material &material,
@@ -75,7 +87,7 @@ namespace
     }
   };
 
-  const Material linear("linear", 1, 0.3);
+  const Material linear("linear", 1, 0.3), soft("Neo-Hookean", 1, 0.45);
 
   // The coarse grids of full cells are Galerkin's, P^T K P with the interpolation P, and what the
   // smoother leaves it leaves in the energy norm. So the error that a V-cycle leaves is positive.
@@ -107,9 +119,92 @@ namespace
     for (int j = 5; j <= 6; ++j)
       for (int i = 5; i <= 6; ++i)
         u.component(2)[block.cells.nodes.entry(i, j, 5)] = -0.9;
-    const auto [least, largest] =
-      block.spectrum(Material("Neo-Hookean", 1, 0.45), u, MatrixFreeSolver::smoother_degree);
+    const auto [least, largest] = block.spectrum(soft, u, MatrixFreeSolver::smoother_degree);
     EXPECT_GT(least, 0);
     EXPECT_LT(largest, 2);
+  }
+
+  /// The mode of the largest eigenvalue of the inverse diagonal blocks times the tangent.
+  LatticeVector<double> stiffest_mode(const LatticeTangent<double> &tangent)
+  {
+    constexpr unsigned int entry[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // of a block
+    const LatticeUnknowns &unknowns    = tangent.unknowns();
+    const std::size_t n                = unknowns.nodes().size();
+    LatticeBlocks<double> D(unknowns.nodes());
+    tangent.inverse_diagonal(D);
+    LatticeVector<double> x = rough_field<double>(unknowns), Kx(x);
+    for (unsigned int step = 0; step < 200; ++step) // of the power method
+    {
+      tangent.vmult(Kx, x);
+      const double norm = std::sqrt(unknowns.dot(x, x));
+      for (const std::size_t i : unknowns.free_entries())
+      {
+        x.entries()[i] = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          x.entries()[i] += D.component(entry[i / n][d])[i % n] * Kx.component(d)[i % n] / norm;
+      }
+    }
+    return x;
+  }
+
+  /// The least eigenvalue of a symmetric operator on the free unknowns.
+  template <class Operator>
+  double least_eigenvalue(const LatticeUnknowns &unknowns, const Operator &A)
+  {
+    const std::vector<std::size_t> entries = unknowns.free_entries();
+    dealii::LAPACKFullMatrix<double> matrix(entries.size());
+    LatticeVector<double> x(unknowns.nodes()), y(x);
+    for (unsigned int j = 0; j < entries.size(); ++j)
+    {
+      x.entries()[entries[j]] = 1;
+      A.vmult(y, x);
+      x.entries()[entries[j]] = 0;
+      for (unsigned int i = 0; i < entries.size(); ++i)
+        matrix(i, j) = y.entries()[entries[i]];
+    }
+    dealii::Vector<double> eigenvalues;
+    dealii::FullMatrix<double> eigenvectors;
+    const double all = 2 * matrix.frobenius_norm();
+    matrix.compute_eigenvalues_symmetric(-all, all, 0, eigenvalues, eigenvectors);
+    return eigenvalues[0];
+  }
+
+  // See GeometricMultigrid::set_smoother().
+  TEST(MultigridSpectrum, IsPositiveWithTheSmootherOfAnIndefiniteTangent)
+  {
+    const Block block(6);
+    GeometricMultigrid<double> multigrid(block.cells, soft, block.held,
+                                         MatrixFreeSolver::smoother_degree);
+    const LatticeVector<double> u = block.flat_at_the_edge(0.1);
+    multigrid.set_state(u, {}, Tangent::exact);
+    LatticeTangent<double> tangent(block.cells, soft, multigrid.unknowns());
+    tangent.elasticity().set_state(u);
+    EXPECT_LT(least_eigenvalue(multigrid.unknowns(), tangent), 0);
+    EXPECT_GT(least_eigenvalue(multigrid.unknowns(), multigrid), 0);
+  }
+
+  // Of the mode at the largest eigenvalue, which is a flat cell's, Chebyshev's polynomial of degree
+  // k leaves at most 1 / (2 k + 1): smoothing twice, and what other grids add, is nearly its
+  // inverse. With the definite tangent's largest eigenvalue for the exact one, which is stiffer, it
+  // would be a thousand times that.
+  TEST(MultigridSpectrum, SmootherKnowsTheStiffestModeOfItsTangent)
+  {
+    const Block block(12);
+    GeometricMultigrid<double> multigrid(block.cells, soft, block.held,
+                                         MatrixFreeSolver::smoother_degree);
+    const LatticeUnknowns &unknowns = multigrid.unknowns();
+    LatticeTangent<double> tangent(block.cells, soft, unknowns);
+    const LatticeVector<double> u = block.flat_at_the_edge(0.2);
+    multigrid.set_state(u);
+    for (const Tangent kind : {Tangent::definite, Tangent::exact, Tangent::definite})
+    {
+      tangent.elasticity().set_state(u, kind);
+      multigrid.set_smoother(kind);
+      const LatticeVector<double> x = stiffest_mode(tangent);
+      LatticeVector<double> Kx(x), z(x);
+      tangent.vmult(Kx, x);
+      multigrid.vmult(z, Kx);
+      EXPECT_NEAR(unknowns.dot(z, Kx) / unknowns.dot(x, Kx), 1, 0.1);
+    }
   }
 } // namespace

@@ -41,6 +41,9 @@ namespace softcell
     /// @throws InvertedPoint
     void set_state(const Field &u, Tangent tangent = Tangent::exact);
 
+    /// Takes another tangent at the same displacement.
+    void set_tangent(Tangent tangent);
+
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(Field &y, const Field &x);
 

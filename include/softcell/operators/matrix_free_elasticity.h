@@ -33,6 +33,9 @@ namespace softcell
     /// @throws InvertedPoint
     void set_state(const LatticeVector<Real> &u, Tangent tangent = Tangent::exact);
 
+    /// Takes another tangent at the same displacement.
+    void set_tangent(Tangent tangent);
+
     /// y = K x, with the tangent K = d residual / du. Units: N/m
     void vmult(LatticeVector<Real> &y, const LatticeVector<Real> &x) const;
 

@@ -41,19 +41,21 @@ namespace softcell
                        unsigned int max_iterations);
 
     /// The same, but returns nothing where the iterations do not suffice.
+    /// @param goes_on  at negative curvature, for largest_eigenvalue().
     std::optional<unsigned int> iterate(const Operator &A,
                                         const Operator &M,
                                         Field &x,
                                         const Field &b,
                                         double tolerance,
-                                        unsigned int max_iterations);
+                                        unsigned int max_iterations,
+                                        bool goes_on = false);
 
     /// |b - A x| / |b| after each iteration.
     const std::vector<double> &history() const
     {
       return history_;
     }
-    /// Of M A, as far as the iterations of positive curvature have seen; NaN without any.
+    /// Of M A, as far as the iterations have seen; NaN without any.
     double largest_eigenvalue() const;
 
   private:

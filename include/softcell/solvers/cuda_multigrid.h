@@ -37,12 +37,12 @@ namespace softcell
 
     /// Takes the displacement at which the tangents are formed. @throws InvertedPoint,
     /// or NotConverged if a grid's tangent is not positive definite
+    /// @param smoother  see GeometricMultigrid::set_smoother().
     template <class Number>
-    void set_state(const Field<Number> &u);
+    void set_state(const Field<Number> &u, Tangent smoother = Tangent::definite);
 
     /// See GeometricMultigrid::set_smoother().
-    template <class Number>
-    void set_smoother(const Field<Number> &u, Tangent tangent);
+    void set_smoother(Tangent tangent);
 
     /// y = K^-1 x, nearly, for an x that is 0 in unknowns that are not free.
     template <class Number>
@@ -57,7 +57,7 @@ namespace softcell
   private:
     struct Level;
 
-    void estimate_eigenvalue(Level &level);
+    void estimate_eigenvalue(Level &level, Tangent tangent);
     void invert_coarsest();
     void smooth(Level &level);
     void cycle(unsigned int level);
@@ -65,6 +65,7 @@ namespace softcell
     CardLevels<Real> grids_;
     std::vector<unsigned char> held_;
     std::vector<std::unique_ptr<Level>> levels_; // from the finest on
+    Tangent smoother_ = Tangent::definite;       // of the finest
     typename Device::Recording recorded_cycle_;
     DeviceArray<int, Device> coarsest_entries_;    // (n)
     DeviceArray<double, Device> coarsest_inverse_; // (n, n)

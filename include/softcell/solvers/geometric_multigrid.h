@@ -15,10 +15,10 @@ namespace softcell
   /// V-cycle over a grid of cells and those with twice, four times, ... the edges.
   ///
   /// Every grid has the body's weighted cells (coarse_cells()) with the displacement of the finest
-  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent
-  /// and set_smoother(). The displacement is smoothed where coarse cells are nearly inside out; if
-  /// that is not enough, their grid is taken at rest. In place of Saint-Venant-Kirchhoff the law is
-  /// Neo-Hookean, whose tangent at rest is the same.
+  /// one, and the supports as Galerkin's product. The tangents are definite ones, see Tangent,
+  /// but for the finest smoother's, see set_smoother(). The displacement is smoothed where coarse
+  /// cells are nearly inside out; if that is not enough, their grid is taken at rest. In place of
+  /// Saint-Venant-Kirchhoff the law is Neo-Hookean, whose tangent at rest is the same.
   ///
   /// The smoother is Chebyshev's polynomial of the fourth kind over the inverted diagonal blocks,
   /// before and after, of a degree that doubles from grid to grid: coarse corrections become nearly
@@ -42,13 +42,15 @@ namespace softcell
 
     /// Takes the displacement at which the tangents are formed, and the supports' tangent.
     /// @throws InvertedPoint, or NotConverged if a grid's tangent is not positive definite
-    void set_state(const LatticeVector<Real> &u, LatticeMatrix<Real> supports = {});
+    void set_state(const LatticeVector<Real> &u,
+                   LatticeMatrix<Real> supports = {},
+                   Tangent smoother             = Tangent::definite);
 
-    /// Gives the finest grid's smoother this tangent at the displacement of set_state(), which gave
-    /// it the definite one. The exact one suits a tangent that is hardly definite. Where a
-    /// polynomial leaves p of an eigenvalue e, smoothing twice is (1 - p^2) / e: also positive
-    /// where e < 0 and p > 1, but large.
-    void set_smoother(const LatticeVector<Real> &u, Tangent tangent);
+    /// Gives the finest grid's smoother another tangent at the same displacement. The exact one
+    /// suits a tangent that is hardly definite. Where a polynomial leaves p of an eigenvalue e,
+    /// smoothing twice is (1 - p^2) / e: positive up to the largest one, as |p| < 1, and also where
+    /// e < 0 and p > 1, but large.
+    void set_smoother(Tangent tangent);
 
     /// y = K^-1 x, nearly, where x is taken as 0 in unknowns that are not free. Nodes without cells
     /// keep their y.
@@ -62,12 +64,13 @@ namespace softcell
   private:
     struct Level;
 
-    void estimate_eigenvalue(Level &level) const;
+    void estimate_eigenvalue(Level &level, Tangent tangent) const;
     void invert_coarsest();
     void smooth(Level &level, bool is_last) const;
     void cycle(unsigned int level) const;
 
     std::vector<std::unique_ptr<Level>> levels_; // from the finest on
+    Tangent smoother_ = Tangent::definite;       // of the finest
     std::vector<std::size_t> coarsest_entries_;  // of the coarsest grid's free unknowns
     dealii::FullMatrix<double> coarsest_inverse_;
   };

@@ -11,7 +11,8 @@ namespace softcell
 {
   /// Conjugate gradients in double precision with geometric multigrid in single precision, whose
   /// smoother has the exact tangent; where they meet negative curvature they start again with the
-  /// definite one.
+  /// definite one. Each attempt may take as many iterations as the parameters allow; history() is
+  /// that of the last one.
   ///
   /// The body's own stiffness is no matrix but that of a displacement, set_state(); what supports
   /// add to it is the matrix of set_matrix(). The constrained unknowns are always the same.
@@ -60,7 +61,7 @@ namespace softcell
   private:
     double finite_dot(const LatticeVector<double> &x, const LatticeVector<double> &y) const;
     [[noreturn]] void fail(const std::string &what) const;
-    unsigned int iterate(const Vector &b) const;
+    unsigned int iterate(Tangent smoother, const Vector &b) const;
 
     LinearSolverParameters parameters_;
     std::vector<std::size_t> entries_;            // (nodes) in a LatticeField
@@ -68,8 +69,9 @@ namespace softcell
     LatticeTangent<double> tangent_;
     LatticeVector<float> state_;
     mutable LatticeVector<float> float_r_, float_z_;
-    mutable LatticeVector<double> x_, r_, p_, Kp_;
+    mutable LatticeVector<double> x_, r_, z_, p_, Kp_;
     mutable LanczosMatrix lanczos_;
+    mutable bool is_indefinite_ = false; // what the last attempt met
     mutable std::vector<double> history_;
   };
 } // namespace softcell
