@@ -4,8 +4,8 @@
 
 usage: gpu_roofline.py [--nvcc NVCC] [--check]
 
-Compiles source/*/*.cu for the cards' architectures. With --check it only looks, for the first of them, whether a kernel
-spills registers or keeps arrays in local memory, and fails if one does.
+Compiles source/*/*.cu for the cards' architectures. With --check it only looks, for all architectures that CMakeLists.txt
+names, whether a kernel spills registers or keeps arrays in local memory, and fails if one does.
 """
 import argparse
 import collections
@@ -101,15 +101,18 @@ def main():
     parser.add_argument("--nvcc", default="/usr/local/cuda/bin/nvcc")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    found = {card: [k for source in sorted(ROOT.glob("source/*/*.cu")) for k in kernels(arguments.nvcc, card.arch, source)]
-             for card in (CARDS[:1] if arguments.check else CARDS)}
-    bad = [f"{card.name}: {k.name} has {k.local} bytes of spills and local arrays" for card, own in found.items()
+    named = re.search(r"SOFTCELL_CUDA_ARCHITECTURES (.*?) CACHE", (ROOT / "CMakeLists.txt").read_text())[1]
+    architectures = [f"sm_{number}" for number in re.findall(r"\d+", named)] if arguments.check else [c.arch for c in CARDS]
+    by_arch = {arch: [k for source in sorted(ROOT.glob("source/*/*.cu")) for k in kernels(arguments.nvcc, arch, source)]
+               for arch in architectures}
+    bad = [f"{arch}: {k.name} has {k.local} bytes of spills and local arrays" for arch, own in by_arch.items()
            for k in own if k.local]
-    if bad or not all(found.values()):
+    if bad or not all(by_arch.values()):
         sys.exit("\n".join(bad) or "There are no kernels.")
     if arguments.check:
-        print(f"{len(found[CARDS[0]])} kernels without spills and local arrays")
+        print(f"{len(by_arch[architectures[0]])} kernels without spills and local arrays for {', '.join(architectures)}")
         return
+    found = {card: by_arch[card.arch] for card in CARDS}
 
     print("| kernel | threads | shared memory, byte |" + "".join(
         f" {card.name}: registers | blocks | occupancy, % |" for card in CARDS) + "\n|---|---|---|" + "---|---|---|" * 2)

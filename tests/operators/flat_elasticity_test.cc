@@ -31,11 +31,11 @@ namespace
   template <class Real>
   void expect_flat_agreement(const Discretization &discretization,
                              const std::vector<Material> &materials,
+                             const FlatPatches<Real> &patches,
                              const double bound)
   {
     const Vector u = wavy(discretization, 0.03, 2), x = wavy(discretization, 1, 7);
     const Elasticity elasticity(discretization, materials);
-    const FlatPatches<Real> patches(discretization);
     FlatElasticity<Real> flat(patches, materials);
     const std::vector<Real> U = entries_of<Real>(u), X = entries_of<Real>(x);
     std::vector<Real> Y(U.size()), blocks(3 * U.size());
@@ -60,6 +60,14 @@ namespace
     expect_diagonal_blocks(K, bound, [&](const unsigned int node, const int a, const int b) {
       return blocks[9 * node + 3 * a + b];
     });
+  }
+
+  template <class Real>
+  void expect_flat_agreement(const Discretization &discretization,
+                             const std::vector<Material> &materials,
+                             const double bound)
+  {
+    expect_flat_agreement(discretization, materials, FlatPatches<Real>(discretization), bound);
   }
 
   struct Case
@@ -132,5 +140,52 @@ namespace
     for (unsigned int node = 0; node < lattice.node_positions().size(); ++node)
       mirrored[3 * node] = -2 * lattice.node_positions()[node][0];
     EXPECT_THROW(flat.set_state({mirrored.data(), mirrored.size()}), InvertedPoint);
+  }
+
+  /// Unit cells of which some points have other nodes, weights and gradients.
+  class ChangedCells : public UnitCells
+  {
+  public:
+    const std::vector<unsigned int> rows{5, 70, 200, 201};
+    const double weight = 0.1;
+    std::vector<unsigned int> nodes{3, 17, 21, 40, 41, 55, 7, 30, 11};
+    std::vector<double> gradients; // (nodes, 3)
+
+    ChangedCells() : UnitCells({{4, 3, 3}}, 2)
+    {
+      table_.resize(1, nodes.size());
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          gradients.push_back(0.05 * std::sin(1 + i * i + 7 * d));
+          table_.gradients[d * nodes.size() + i] = gradients.back();
+        }
+      for (const unsigned int row : rows)
+        cells[row / 8].weights[row % 8] = 0;
+    }
+
+    unsigned int n_patches() const override
+    {
+      return cells.size() + rows.size();
+    }
+    Patch patch(const unsigned int i, PatchStorage &storage) const override
+    {
+      if (i < cells.size())
+        return UnitCells::patch(i, storage);
+      return {{nodes.data(), nodes.size()}, {&weight, 1}, &table_, {cells[0].labels.data(), 1}};
+    }
+
+  private:
+    ShapeTable table_;
+  };
+
+  TEST(FlatElasticity, IsTheAssembledOneAfterRowsHaveChanged)
+  {
+    const UnitCells cells({{4, 3, 3}}, 2);
+    const ChangedCells changed;
+    FlatPatches<double> patches(cells, FlatPatches<double>::pack_width, 4);
+    for (const unsigned int row : changed.rows)
+      ASSERT_TRUE(patches.change(row, changed.weight, changed.nodes, changed.gradients));
+    expect_flat_agreement(changed, {Material("Neo-Hookean", 5000, 0.3)}, patches, 1e-12);
   }
 } // namespace

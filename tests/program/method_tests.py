@@ -84,11 +84,41 @@ def cook_membrane(folder):
     check(abs(projected / limit - 1) < 0.005, f"Cook's membrane, projected: {projected}")
 
 
-def organ(folder):
-    """The liver of prm/liver.prm on a coarse grid: its volume, equilibrium, and the same on three ranks."""
+def multigrid(folder):
+    """Geometric multigrid on a liver: the solution of the assembled matrix, in few iterations up to full load."""
+    def liver(name, *settings):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        status, text, error = softcell(name, *arguments, "--output", folder / "liver", folder=ROOT)
+        check(status == 0, f"{name}: status {status}: {text[-2000:]} {error[-2000:]}")
+        return rows(folder / "liver" / "results.csv") if status == 0 else []
+
+    needs_liver()
+    found = liver("prm/studies/multigrid_liver.prm", "Study/Cells = 16, 17, 18")
+    check(len(found) == 12, f"{len(found)} of 12 livers")
+    for row in found:
+        check(int(row["most_linear_iterations"]) <= 20, f"{row['case']}: {row['most_linear_iterations']} iterations")
+
+    tight = ("Discretization/Cells = 12", "Solver/Linear tolerance = 1e-11", "Solver/Residual tolerance = 1e-11")
+    solutions = [liver("prm/liver.prm", *tight, f"Solver/Preconditioner = {preconditioner}")
+                 for preconditioner in ("AMG", "geometric multigrid")]
+    if all(solutions):
+        one, other = solutions[0][0], solutions[1][0]
+        columns = [column for column in one if "energy" in column or column[-3:-1] in ("_u", "_f")]
+        check(len(columns) > 10, f"columns to compare: {columns}")
+        same_row({column: one[column] for column in columns}, {column: other[column] for column in columns}, 1e-8,
+                 "multigrid and AMG")
+
+
+def needs_liver():
+    """Skips the test where the liver is not."""
     if not (ROOT / "data" / "liver.inr.gz").exists():
         print("data/liver.inr.gz is missing: scripts/fetch-liver brings it")
         sys.exit(SKIPPED)
+
+
+def organ(folder):
+    """The liver of prm/liver.prm on a coarse grid: its volume, equilibrium, and the same on three ranks."""
+    needs_liver()
     volume = 3160496 * 0.617188e-3**2 * 1.33333e-3  # of its voxels
     settings = ("Discretization/Cells = 10", "Discretization/Mesh size = 0.02", "Solver/Residual tolerance = 1e-11",
                 "Solver/Linear tolerance = 1e-12")

@@ -194,8 +194,9 @@ program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     groups = {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
               "dynamics": motion_test.dynamics, "methods": method_tests.methods, "studies": method_tests.studies,
-              "cook_membrane": method_tests.cook_membrane, "organ": method_tests.organ, "sweeps": study_tests.sweeps,
-              "resume": study_tests.resume, "report": report_test.report}
+              "cook_membrane": method_tests.cook_membrane, "multigrid": method_tests.multigrid,
+              "organ": method_tests.organ, "sweeps": study_tests.sweeps, "resume": study_tests.resume,
+              "report": report_test.report}
     groups[sys.argv[2]](pathlib.Path(temporary))
 print(f"{len(failures)} failures")
 sys.exit(1 if failures else 0)
