@@ -3,6 +3,7 @@
 
 #include <softcell/operators/elasticity.h>
 
+#include "inverted_points.h"
 #include "volumetric_projection.h"
 
 #include <softcell/base/exceptions.h>
@@ -60,14 +61,6 @@ namespace softcell
       DeformedPatch deformed_base_;
     };
 
-    void throw_if_inverted(const unsigned int n_inverted, const MPI_Comm communicator)
-    {
-      if (const auto n = dealii::Utilities::MPI::sum(n_inverted, communicator); n > 0)
-        throw InvertedPoint(std::to_string(n) +
-                            (n == 1 ? " integration point is" : " integration points are") +
-                            " turned inside out (J <= 0).");
-    }
-
     double von_mises(const Matrix3<double> &sigma)
     {
       const double p    = trace(sigma) / 3;
@@ -108,7 +101,7 @@ namespace softcell
         energy += patch.weights[point] * law.energy(F);
       });
     });
-    throw_if_inverted(n_inverted, discretization_.communicator());
+    throw_if_inverted(dealii::Utilities::MPI::sum(n_inverted, discretization_.communicator()));
     return dealii::Utilities::MPI::sum(energy, discretization_.communicator());
   }
 
@@ -126,7 +119,7 @@ namespace softcell
       });
       residual.scatter(patch.nodes, r);
     });
-    throw_if_inverted(n_inverted, discretization_.communicator());
+    throw_if_inverted(dealii::Utilities::MPI::sum(n_inverted, discretization_.communicator()));
   }
 
   void Elasticity::add_tangent(const Vector &u, BlockMatrix &K, const Vector *const base) const
@@ -144,7 +137,7 @@ namespace softcell
       points.add_to_tangent(deformed, tangent);
       K.add(patch.nodes, tangent.values());
     });
-    throw_if_inverted(n_inverted, discretization_.communicator());
+    throw_if_inverted(dealii::Utilities::MPI::sum(n_inverted, discretization_.communicator()));
   }
 
   std::vector<std::vector<unsigned int>> Elasticity::couplings() const

@@ -4,9 +4,8 @@
 #include <softcell/operators/flat_elasticity.h>
 
 #include "cell_kernels.h"
+#include "inverted_points.h"
 #include "simd_numbers.h"
-
-#include <softcell/base/exceptions.h>
 
 #include <algorithm>
 #include <limits>
@@ -119,10 +118,7 @@ namespace softcell
         Simd::store(pressure<Simd>(law, F), pressures_.data(), b);
       });
     }
-    if (n_inverted > 0)
-      throw InvertedPoint(std::to_string(n_inverted) +
-                          (n_inverted == 1 ? " integration point is" : " integration points are") +
-                          " turned inside out (J <= 0).");
+    throw_if_inverted(n_inverted);
   }
 
   template <class Real>

@@ -4,9 +4,8 @@
 #include <softcell/operators/matrix_free_elasticity.h>
 
 #include "cell_diagonal.h"
+#include "inverted_points.h"
 #include "simd_numbers.h"
-
-#include <softcell/base/exceptions.h>
 
 #include <algorithm>
 #include <limits>
@@ -231,10 +230,8 @@ namespace softcell
 
     void throw_if_inverted(const std::vector<unsigned int> &by_layer)
     {
-      if (const auto n = std::accumulate(by_layer.begin(), by_layer.end(), 0U); n > 0)
-        throw InvertedPoint(std::to_string(n) +
-                            (n == 1 ? " integration point is" : " integration points are") +
-                            " turned inside out (J <= 0).");
+      softcell::throw_if_inverted(
+        std::accumulate(by_layer.begin(), by_layer.end(), std::size_t(0)));
     }
   } // namespace
 
@@ -278,9 +275,9 @@ namespace softcell
     std::vector<double> smallest(cells_.nodes().n_cells()[2], none);
     for_each_point(cells_, material_, u,
                    [&](const auto &, const auto &weight, const auto &F, const int layer) {
-                     Number J                            = determinant(F);
-                     stdx::where(Number(weight) == 0, J) = std::numeric_limits<Real>::max();
-                     smallest[layer] = std::min<double>(smallest[layer], stdx::hmin(J));
+                     Number J                    = determinant(F);
+                     stdx::where(weight == 0, J) = std::numeric_limits<Real>::max();
+                     smallest[layer]             = std::min<double>(smallest[layer], stdx::hmin(J));
                    });
     return *std::min_element(smallest.begin(), smallest.end());
   }

@@ -53,7 +53,6 @@ namespace softcell
     {
       return std::experimental::popcount(mask);
     }
-    static void reset_where_empty(const Real, Matrix3<Number> &) {}
     static void reset_where_empty(const Number &weight, Matrix3<Number> &F)
     {
 #pragma GCC unroll 9
