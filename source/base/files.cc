@@ -14,6 +14,16 @@
 
 namespace softcell
 {
+  namespace
+  {
+    /// @param error as errno has it.
+    [[noreturn]] void throw_not_written(const std::string &file, const int error)
+    {
+      throw BadInput("'" + file + "' cannot be written (" + std::strerror(error) +
+                     "); give a folder with room and permission by --output DIR.");
+    }
+  } // namespace
+
   void check_file(const std::string &place, const std::string &file)
   {
     namespace fs = std::filesystem;
@@ -36,11 +46,25 @@ namespace softcell
     out.close();
     if (!out || std::rename(part.c_str(), file.c_str()) != 0)
     {
-      const std::string reason = std::strerror(errno);
+      const int error = errno;
       std::remove(part.c_str());
-      throw BadInput("'" + file + "' cannot be written (" + reason +
-                     "); give a folder with room and permission by --output DIR.");
+      throw_not_written(file, error);
     }
+  }
+
+  GrowingFile::GrowingFile(const std::string &file) : file_(file)
+  {
+    errno = 0;
+    out_.open(file, std::ios::binary);
+    if (!out_)
+      throw_not_written(file_, errno);
+  }
+
+  void GrowingFile::add(const std::string &lines)
+  {
+    errno = 0;
+    if (!(out_ << lines << std::flush))
+      throw_not_written(file_, errno);
   }
 
   void make_folder(const std::string &folder)

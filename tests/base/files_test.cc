@@ -35,6 +35,23 @@ TEST(Files, ReplacesTheWhole)
   std::filesystem::remove(file);
 }
 
+TEST(Files, GrowsSoThatAReaderSeesWhatWasAdded)
+{
+  const std::string file = own_name();
+  write_file(file, "an earlier text\n");
+  GrowingFile growing(file);
+  std::string expected;
+  for (const char *const line : {"a\n", "b\nc\n"})
+  {
+    growing.add(line);
+    expected += line;
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    EXPECT_EQ(text.str(), expected);
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(Files, NamesWhatCannotBeReadByItsWholePath)
 {
   const std::string here = std::filesystem::current_path().string();
@@ -70,6 +87,16 @@ TEST(Files, NamesWhatCannotBeWritten)
   catch (const BadInput &error)
   {
     EXPECT_NE(std::string(error.what()).find("no/such/folder/file"), std::string::npos);
+  }
+}
+
+TEST(Files, NamesWhatCannotGrow)
+{
+  EXPECT_THROW(GrowingFile("no/such/folder/file"), BadInput);
+  if (std::filesystem::exists("/dev/full"))
+  {
+    GrowingFile full("/dev/full"); // a disk without room
+    EXPECT_THROW(full.add("text"), BadInput);
   }
 }
 

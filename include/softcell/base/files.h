@@ -2,6 +2,7 @@
 // Files that are to be read, and text files written so that a reader never sees half of one.
 #pragma once
 
+#include <fstream>
 #include <string>
 
 namespace softcell
@@ -14,6 +15,20 @@ namespace softcell
   /// Puts the text into the file in one move; what stood there before stays until then.
   /// @throws BadInput if the file cannot be written.
   void write_file(const std::string &file, const std::string &text);
+
+  /// A text file that grows. What was added is there even if the program is killed.
+  class GrowingFile
+  {
+  public:
+    /// Begins with an empty file.
+    /// @throws BadInput if it cannot be written, as add() does.
+    explicit GrowingFile(const std::string &file);
+    void add(const std::string &lines);
+
+  private:
+    std::string file_;
+    std::ofstream out_;
+  };
 
   /// Makes a folder and those above it, unless they are there.
   /// @throws BadInput if it cannot be made.
