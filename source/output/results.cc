@@ -42,6 +42,8 @@ namespace softcell
                                                        "slowest_step_ms",
                                                        "late_steps",
                                                        "shortened_steps",
+                                                       "unsolved_steps",
+                                                       "largest_linear_residual",
                                                        "kinetic_energy",
                                                        "most_linear_iterations",
                                                        "cell_size",

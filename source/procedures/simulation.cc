@@ -287,7 +287,7 @@ namespace softcell
         move<float>(folder);
       else
         move<double>(folder);
-      return true;
+      return history_.converged;
     }
     const auto follow_from_rest = [&] {
       console_.say("  from the coarser grid: " + history_.reason + "; starting from rest");
@@ -356,6 +356,8 @@ namespace softcell
 
   std::string Simulation::reason() const
   {
+    if (is_dynamic())
+      return history_.reason;
     return history_.reason +
            "; the state that was reached is written: look there for the least J; " +
            "a smaller load, more cells" +

@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace softcell
 {
@@ -110,6 +113,16 @@ namespace softcell
       LatticeVector<Real> force_, imposed_;
     };
 
+    /// What a step came to.
+    struct Frame
+    {
+      double time = 0, step_ms = 0; // s, ms
+      unsigned int linear_iterations = 0;
+      double linear_residual = 0, way = 1;
+      double kinetic_energy = 0, strain_energy = 0; // J
+      std::map<std::string, Direction> forces;      // by region. Units: N
+    };
+
     std::string frames_head(const std::map<std::string, Direction> &forces)
     {
       std::string head =
@@ -118,6 +131,119 @@ namespace softcell
         head += ',' + region + "_fx," + region + "_fy," + region + "_fz";
       return head + '\n';
     }
+
+    std::string frames_row(const Frame &frame)
+    {
+      std::ostringstream row;
+      row.precision(9);
+      row << frame.time << ',' << frame.step_ms << ',' << frame.linear_iterations << ','
+          << frame.linear_residual << ',' << frame.way << ',' << frame.kinetic_energy << ','
+          << frame.strain_energy;
+      for (const auto &[region, force] : frame.forces)
+        row << ',' << force[0] << ',' << force[1] << ',' << force[2];
+      row << '\n';
+      return row.str();
+    }
+
+    /// What is no number, or too large for the single precision of written states; empty if nothing
+    /// is.
+    /// @param stretch no less than that of the body.
+    std::string not_finite(const Frame &frame, const double stretch)
+    {
+      std::vector<std::pair<std::string, double>> numbers = {
+        {"strain energy", frame.strain_energy},
+        {"kinetic energy", frame.kinetic_energy},
+        {"deformation", stretch * stretch * stretch}, // J
+        {"residual of its linear system", frame.linear_residual}};
+      for (const auto &[region, force] : frame.forces)
+        numbers.emplace_back("force on " + region, force.norm());
+      for (const auto &[name, number] : numbers)
+        if (!(std::abs(number) <= std::numeric_limits<float>::max()))
+          return "the " + name + " is no finite number of single precision";
+      return "";
+    }
+
+    std::string in_seconds(const double t)
+    {
+      std::ostringstream text;
+      text << "t = " << t << " s";
+      return text.str();
+    }
+
+    /// The steps of a body in motion, and what acts on it from outside. Real is the precision.
+    template <class Real>
+    class Steps
+    {
+    public:
+      Steps(const Parameters &parameters,
+            const Material &material,
+            const Loads &loads,
+            const Discretization &discretization,
+            const Vector &start)
+          : dynamics_(parameters.dynamics),
+            middle_(dynamics_.motion().scheme == TimeScheme::newmark ? 0.5 : 1),
+            cells_(cell_lattice(discretization)),
+            outside_(loads, discretization, cells_),
+            motion_(cells_,
+                    material,
+                    outside_.held(),
+                    LatticeMatrix<Real>(support_tangent(loads, discretization),
+                                        cells_.entries,
+                                        cells_.nodes),
+                    dynamics_.motion())
+      {
+        effort_.tolerance      = parameters.linear_solver.tolerance;
+        effort_.max_iterations = parameters.linear_solver.max_iterations;
+        copy(start, cells_.entries, motion_.displacement());
+      }
+
+      std::map<std::string, Direction> tool_forces(const double t)
+      {
+        const LatticeMotion<Real> &now = motion_;
+        return outside_.tool_forces(t, now.displacement(), now.reaction());
+      }
+
+      /// Makes the step that ends at t.
+      /// @throws NotConverged
+      Frame advance(const double t)
+      {
+        const double dt = 1 / dynamics_.steps_per_second;
+        Frame frame;
+        frame.time       = t;
+        const auto begin = Clock::now();
+        if (dynamics_.frame_budget > 0)
+          effort_.deadline = begin +
+                             std::chrono::microseconds(std::lround(1e3 * dynamics_.frame_budget)) -
+                             forces_took_;
+        const auto step =
+          motion_.advance(dt, outside_.force(t - (1 - middle_) * dt), outside_.imposed(t), effort_);
+        const auto solved       = Clock::now();
+        frame.forces            = tool_forces(t);
+        const auto end          = Clock::now();
+        forces_took_            = end - solved;
+        frame.step_ms           = milliseconds(begin, end);
+        frame.linear_iterations = step.iterations;
+        frame.linear_residual   = step.residual;
+        frame.way               = step.way;
+        frame.kinetic_energy    = motion_.kinetic_energy();
+        frame.strain_energy     = motion_.strain_energy();
+        return frame;
+      }
+
+      void get(Vector &displacement) const
+      {
+        copy(motion_.displacement(), cells_.entries, displacement);
+      }
+
+    private:
+      const DynamicsParameters &dynamics_;
+      const double middle_; // where in a step loads act
+      const CellLattice cells_;
+      Outside<Real> outside_;
+      LatticeMotion<Real> motion_;
+      typename LatticeMotion<Real>::Effort effort_;
+      Clock::duration forces_took_{}; // the tool's forces, in the last step
+    };
 
     double end_time(const Parameters &parameters)
     {
@@ -175,72 +301,92 @@ namespace softcell
   void Simulation::move(const std::filesystem::path &folder)
   {
     const DynamicsParameters &dynamics = parameters_.dynamics;
-    const CellLattice cells            = cell_lattice(*discretization_);
-    const BlockMatrix supports         = support_tangent(*loads_, *discretization_);
-    Outside<Real> outside(*loads_, *discretization_, cells);
-    LatticeMotion<Real> motion(cells, materials_[0], outside.held(),
-                               LatticeMatrix<Real>(supports, cells.entries, cells.nodes),
-                               dynamics.motion());
-    copy(displacement_, cells.entries, motion.displacement());
-    const LatticeMotion<Real> &now = motion;
-    const double dt                = 1 / dynamics.steps_per_second;
-    const double middle            = dynamics.motion().scheme == TimeScheme::newmark ? 0.5 : 1;
+    const double tolerance             = parameters_.linear_solver.tolerance;
+    const unsigned int every           = parameters_.output.every;
     const unsigned int n_frames =
       std::lround(std::ceil(end_time(parameters_) * dynamics.steps_per_second - 1e-6));
-    const unsigned int every = parameters_.output.every;
-    typename LatticeMotion<Real>::Effort effort;
-    Clock::duration forces_took{}; // the tool's forces, in the last step
-    effort.tolerance      = parameters_.linear_solver.tolerance;
-    effort.max_iterations = parameters_.linear_solver.max_iterations;
-    std::ostringstream table;
-    table.precision(9);
-    for (unsigned int frame = 1; frame <= n_frames; ++frame)
+    Steps<Real> steps(parameters_, materials_[0], *loads_, *discretization_, displacement_);
+    make_folder(folder.string());
+    GrowingFile frames((folder / "frames.csv").string());
+    frames.add(frames_head(steps.tool_forces(0)));
+    Vector moved = displacement_;
+    while (motion_.n_steps < n_frames)
     {
-      const double t   = frame / dynamics.steps_per_second;
-      const auto begin = Clock::now();
-      if (dynamics.frame_budget > 0)
-        effort.deadline =
-          begin + std::chrono::microseconds(std::lround(1e3 * dynamics.frame_budget)) - forces_took;
-      const auto step =
-        motion.advance(dt, outside.force(t - (1 - middle) * dt), outside.imposed(t), effort);
-      const auto solved      = Clock::now();
-      motion_.forces         = outside.tool_forces(t, now.displacement(), now.reaction());
-      const auto end         = Clock::now();
-      forces_took            = end - solved;
-      const double ms        = milliseconds(begin, end);
-      motion_.slowest_ms     = std::max(motion_.slowest_ms, ms);
-      motion_.kinetic_energy = motion.kinetic_energy();
-      motion_.n_late += dynamics.frame_budget > 0 && ms > dynamics.frame_budget;
-      motion_.n_shortened += step.way < 1;
-      table << (frame == 1 ? frames_head(motion_.forces) : "") << t << ',' << ms << ','
-            << step.iterations << ',' << step.residual << ',' << step.way << ','
-            << motion_.kinetic_energy << ',' << motion.strain_energy();
-      for (const auto &[region, force] : motion_.forces)
-        table << ',' << force[0] << ',' << force[1] << ',' << force[2];
-      table << '\n';
-      history_.linear_iterations += step.iterations;
-      most_linear_iterations_ = std::max(most_linear_iterations_, step.iterations);
-      console_.progress("  frame " + std::to_string(frame) + " of " + std::to_string(n_frames) +
-                        ": " + std::to_string(step.iterations) + " linear iterations");
-      copy(now.displacement(), cells.entries, displacement_);
-      if (every > 0 && frame % every == 0)
+      const unsigned int n   = motion_.n_steps + 1;
+      const std::string step = "step " + std::to_string(n) + " of " + std::to_string(n_frames);
+      const double t         = n / dynamics.steps_per_second;
+      Frame frame;
+      std::string failure;
+      try
+      {
+        frame = steps.advance(t);
+        steps.get(moved);
+        failure = not_finite(frame, moved.l2_norm() / cell_size());
+      }
+      catch (const NotConverged &error)
+      {
+        failure = error.what();
+      }
+      catch (const InvertedPoint &) // of an invertible law, where J is no number
+      {
+        failure = "the deformation is no finite number";
+      }
+      if (!failure.empty())
+      {
+        if (failure.back() == '.')
+          failure.pop_back();
+        history_.reason = step + ", to " + in_seconds(t) + ", failed: " + failure +
+                          "; the state at " + in_seconds(history_.reached) +
+                          " is written; smaller loads, a slower motion or more Dynamics/Steps per "
+                          "second may help";
+        break;
+      }
+      displacement_.swap(moved);
+      frames.add(frames_row(frame));
+      history_.reached = t;
+      history_.linear_iterations += frame.linear_iterations;
+      most_linear_iterations_ = std::max(most_linear_iterations_, frame.linear_iterations);
+      motion_.n_steps         = n;
+      motion_.n_late += dynamics.frame_budget > 0 && frame.step_ms > dynamics.frame_budget;
+      motion_.n_shortened += frame.way < 1;
+      motion_.n_unsolved += frame.linear_residual > tolerance;
+      motion_.largest_residual = std::max(motion_.largest_residual, frame.linear_residual);
+      motion_.slowest_ms       = std::max(motion_.slowest_ms, frame.step_ms);
+      motion_.kinetic_energy   = frame.kinetic_energy;
+      motion_.forces           = frame.forces;
+      console_.progress("  " + step + ": " + std::to_string(frame.linear_iterations) +
+                        " linear iterations");
+      if (every > 0 && n % every == 0)
         write_state(folder, t);
     }
-    motion_.n_steps    = n_frames;
-    history_.reached   = n_frames / dynamics.steps_per_second;
-    history_.converged = true;
-    make_folder(folder.string());
-    write_file((folder / "frames.csv").string(), table.str());
+    if (history_.reason.empty() && motion_.n_unsolved > 0 && dynamics.frame_budget == 0)
+      history_.reason =
+        unsolved_steps() + "; give more Dynamics/Steps per second, " +
+        (dynamics.scheme == "Newmark" ? "'Dynamics/Scheme = implicit Euler', " : "") +
+        "smaller loads or more Solver/Linear iterations";
+    history_.converged = history_.reason.empty();
     say_motion();
+  }
+
+  std::string Simulation::unsolved_steps() const
+  {
+    std::ostringstream text;
+    text << motion_.n_unsolved << " of " << motion_.n_steps
+         << " steps left their linear system above Solver/Linear tolerance = "
+         << parameters_.linear_solver.tolerance << ", the largest residual is "
+         << std::setprecision(2) << motion_.largest_residual;
+    return text.str();
   }
 
   void Simulation::say_motion()
   {
     std::ostringstream text;
-    text << "  " << motion_.n_steps << " steps to t = " << history_.reached << " s, "
+    text << "  " << motion_.n_steps << " steps to " << in_seconds(history_.reached) << ", "
          << history_.linear_iterations << " linear iterations, the slowest step took "
          << std::setprecision(3) << motion_.slowest_ms << " ms";
     console_.say(text.str());
+    if (parameters_.dynamics.frame_budget > 0 && motion_.n_unsolved > 0)
+      console_.say("  " + unsolved_steps());
     if (motion_.n_shortened > 0)
       warn({std::to_string(motion_.n_shortened) + " of " + std::to_string(motion_.n_steps) +
             " steps went only a part of their way, as the body would have gained energy (column "

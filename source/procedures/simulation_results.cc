@@ -101,6 +101,8 @@ namespace softcell
     if (parameters_.dynamics.frame_budget > 0)
       row.set("late_steps", motion_.n_late);
     row.set("shortened_steps", motion_.n_shortened);
+    row.set("unsolved_steps", motion_.n_unsolved);
+    row.set("largest_linear_residual", motion_.largest_residual);
     row.set("kinetic_energy", motion_.kinetic_energy);
   }
 

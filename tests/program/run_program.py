@@ -3,8 +3,8 @@
 """Runs the whole program and checks what it prints, returns and writes.
 
 usage: run_program.py SOFTCELL GROUP
-GROUP is one of command_line, bad_input, ranks, checkpoints, dynamics, methods, studies, cook_membrane, organ, sweeps,
-resume, report.
+GROUP is one of command_line, bad_input, ranks, checkpoints, dynamics, motion_failures, methods, studies, cook_membrane,
+organ, multigrid, sweeps, resume, report.
 """
 import json
 import math
@@ -193,7 +193,8 @@ if len(sys.argv) != 3:
 program.executable = os.path.abspath(sys.argv[1])
 with tempfile.TemporaryDirectory() as temporary:
     groups = {"command_line": command_line, "bad_input": bad_input, "ranks": ranks, "checkpoints": checkpoints,
-              "dynamics": motion_test.dynamics, "methods": method_tests.methods, "studies": method_tests.studies,
+              "dynamics": motion_test.dynamics, "motion_failures": motion_test.motion_failures,
+              "methods": method_tests.methods, "studies": method_tests.studies,
               "cook_membrane": method_tests.cook_membrane, "multigrid": method_tests.multigrid,
               "organ": method_tests.organ, "sweeps": study_tests.sweeps, "resume": study_tests.resume,
               "report": report_test.report}

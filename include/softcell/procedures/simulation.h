@@ -39,7 +39,8 @@ namespace softcell
     /// if the end was not reached: then the displacement is that of the last load step that
     /// converged, and reason() says what stopped it.
     /// @param folder for the states that `Every` asks for.
-    /// In a dynamic run, moves the body until the end time and writes frames.csv.
+    /// In a dynamic run, moves the body until the end time and writes frames.csv on the way. False
+    /// if a step failed, or its linear system missed the tolerance without a frame budget.
     bool solve(const std::filesystem::path &folder);
 
     /// One clause, with advice.
@@ -115,6 +116,8 @@ namespace softcell
     {
       unsigned int n_steps = 0, n_late = 0;    // late: over the frame budget
       unsigned int n_shortened = 0;            // steps that went only a part of their way
+      unsigned int n_unsolved  = 0;            // whose linear system missed the tolerance
+      double largest_residual  = 0;            // of a step's linear system, relative
       double slowest_ms        = 0;            // of a step
       double kinetic_energy    = 0;            // at the end. Units: J
       std::map<std::string, Direction> forces; // at the end, by region. Units: N
@@ -153,10 +156,12 @@ namespace softcell
     /// @throws BadInput where the parameters ask for what there is not in a motion.
     void check_motion() const;
 
-    /// Moves the body from displacement_ at rest to the end time and writes frames.csv. Real is the
-    /// precision.
+    /// Moves the body from displacement_ at rest to the end time or the last step before one that
+    /// fails, and writes frames.csv step by step. Real is the precision.
     template <class Real>
     void move(const std::filesystem::path &folder);
+    /// How many steps missed the tolerance, and by how much.
+    std::string unsolved_steps() const;
     /// Tells how a motion went.
     void say_motion();
 
