@@ -60,6 +60,8 @@ namespace softcell
 
   Material Material::definite() const
   {
+    if (std::holds_alternative<InvertibleNeoHookean<>>(law_))
+      return *this;
     return visit([&](const auto &law) {
       const bool is_linear = std::is_same_v<std::decay_t<decltype(law)>, LinearElastic<>>;
       const double young   = law.mu * (3 * law.lambda + 2 * law.mu) / (law.lambda + law.mu);

@@ -249,6 +249,15 @@ namespace softcell
   }
 
   template <class Real>
+  void GeometricMultigrid<Real>::set_finest_state(const LatticeVector<Real> &u)
+  {
+    if (levels_.size() == 1) // its inverse is that of set_state()
+      return;
+    levels_[0]->tangent.elasticity().set_state(u, Tangent::definite);
+    levels_[0]->tangent.inverse_diagonal(levels_[0]->inverse_diagonal);
+  }
+
+  template <class Real>
   std::size_t GeometricMultigrid<Real>::memory() const
   {
     std::size_t bytes = coarsest_inverse_.memory_consumption();

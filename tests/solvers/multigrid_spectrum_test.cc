@@ -65,9 +65,16 @@ namespace
                                        const unsigned int degree) const
     {
       GeometricMultigrid<double> multigrid(cells, material, held, degree);
+      multigrid.set_state(u);
+      return spectrum(multigrid, material, u);
+    }
+
+    std::pair<double, double> spectrum(const GeometricMultigrid<double> &multigrid,
+                                       const Material &material,
+                                       const LatticeVector<double> &u) const
+    {
       const LatticeUnknowns &unknowns = multigrid.unknowns();
       LatticeTangent<double> tangent(cells, material, unknowns);
-      multigrid.set_state(u);
       tangent.elasticity().set_state(u, Tangent::definite);
       LatticeVector<double> r = rough_field<double>(unknowns), z(rest()), p(z), Kp(z);
       LanczosMatrix lanczos;
@@ -122,6 +129,24 @@ namespace
     const auto [least, largest] = block.spectrum(soft, u, MatrixFreeSolver::smoother_degree);
     EXPECT_GT(least, 0);
     EXPECT_LT(largest, 2);
+  }
+
+  // Multigrid for the body at rest amplifies the stiffness of a squeezed cell.
+  TEST(MultigridSpectrum, TheFinestGridsStateTamesASqueezedCell)
+  {
+    const Block block(12);
+    for (const double height : {0.5, 0.2, 0.1})
+    {
+      const LatticeVector<double> u = block.flat_at_the_edge(height);
+      GeometricMultigrid<double> multigrid(block.cells, soft, block.held, 1);
+      multigrid.set_state(block.rest());
+      const double at_rest = block.spectrum(multigrid, soft, u).second;
+      multigrid.set_finest_state(u);
+      const auto [least, largest] = block.spectrum(multigrid, soft, u);
+      EXPECT_GT(at_rest, 2);
+      EXPECT_GT(least, 0);
+      EXPECT_LT(largest, at_rest / 3);
+    }
   }
 
   /// The mode of the largest eigenvalue of the inverse diagonal blocks times the tangent.

@@ -39,7 +39,7 @@ namespace softcell
     Material invertible() const;
 
     /// Neo-Hookean in place of Saint-Venant-Kirchhoff, with the same tangent at rest: a law whose
-    /// tangents can be made positive, see Tangent.
+    /// tangents can be made positive, see Tangent. That of motions can be as it is.
     Material definite() const;
 
     /// lambda + 2 mu, the stiffness against strain along one axis alone. Units: Pa
