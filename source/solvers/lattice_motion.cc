@@ -3,12 +3,24 @@
 
 #include <softcell/solvers/lattice_motion.h>
 
+#include <softcell/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace softcell
 {
+  namespace
+  {
+    void throw_unless_finite(const double number)
+    {
+      if (!std::isfinite(number))
+        throw NotConverged("a step in time met displacements, velocities or forces that are not "
+                           "finite numbers; give smaller loads or a slower motion");
+    }
+  } // namespace
+
   template <class Real>
   LatticeMotion<Real>::LatticeMotion(const CellLattice &cells,
                                      const Material &material,
@@ -26,6 +38,7 @@ namespace softcell
         z_(cells.nodes),
         p_(cells.nodes),
         Ap_(cells.nodes),
+        start_(cells.nodes),
         way_(cells.nodes),
         w_before_(cells.nodes),
         starts_(2, u_),
@@ -65,17 +78,18 @@ namespace softcell
       impulse(external, h, b);
     };
     motion.solve = [&](const double mass, const double stiffness, const auto &b, auto &w) {
-      r_ = b;
       combine(Real(stiffness), Real(mass), effort.deadline == Clock::time_point::max());
-      solve(effort, w);
+      solve(effort, b, w);
       solved = Clock::now();
     };
     for (const std::size_t entry : held_) // as fast as they have to be
       v_.entries()[entry] = (imposed.entries()[entry] - u_.entries()[entry]) / Real(dt);
     const double before = kinetic_energy() + strain();
-    way_                = u_;
+    throw_unless_finite(before);
+    start_ = u_;
     softcell::advance(motion, parameters_.scheme, 0, dt, u_, v_);
-    unknowns_.for_each(way_, u_, [](Real &way_i, const Real u_i) { way_i = u_i - way_i; });
+    way_ = u_;
+    add(way_, -1, start_);
     unknowns_.for_each(reaction_, r_,
                        [factor = Real(-1 / h)](Real &R_i, const Real r_i) { R_i = factor * r_i; });
     shorten(external, before, dt, h);
@@ -87,7 +101,14 @@ namespace softcell
   double LatticeMotion<Real>::strain()
   {
     if (!has_strain_)
-      strain_ = strain_energy();
+      try
+      {
+        strain_ = strain_energy();
+      }
+      catch (const InvertedPoint &) // an invertible law's value is beyond all numbers
+      {
+        strain_ = std::numeric_limits<double>::infinity();
+      }
     has_strain_ = true;
     return strain_;
   }
@@ -105,28 +126,35 @@ namespace softcell
   }
 
   /// Halves the way, also that of held entries, until there is hardly more energy than there was
-  /// before and than was put in on the way. The energy of a law that stiffens may rise above that
-  /// of its linearisation.
+  /// and than was put in. The energy of a law that stiffens may rise above that of its
+  /// linearisation. What steps gained is added up, less what others lost, but for losses before
+  /// the first gain: a margin of each step's own would let the energy grow without end.
   template <class Real>
   void LatticeMotion<Real>::shorten(const LatticeVector<Real> &external,
                                     const double before,
                                     const double dt,
                                     const double h)
   {
-    constexpr unsigned int most = 5;
+    constexpr unsigned int most = 10; // halvings, then the body stops where it was
     constexpr double margin     = 0.05;
-    for (unsigned int n = 0; n < most; ++n)
+    for (unsigned int n = 0;; ++n)
     {
-      has_strain_ = false;
-      if ((1 - margin) * (strain() + kinetic_energy()) <= before + work(external))
+      has_strain_          = false;
+      const double energy  = strain() + kinetic_energy(),
+                   allowed = before + work(external) - gained_;
+      if ((1 - margin) * energy <= allowed || n > most)
+      {
+        gained_ = std::max(energy - allowed, 0.);
         return;
-      unknowns_.for_each(way_, way_, [](Real &way_i, Real) { way_i *= Real(0.5); });
-      add(u_, -1, way_);
-      step_.way *= 0.5;
+      }
+      const Real kept = n < most ? 0.5 : 0;
+      take_back((1 - kept) / (dt * h));
+      unknowns_.for_each(way_, way_, [kept](Real &way_i, Real) { way_i *= kept; });
+      u_ = start_;
+      add(u_, 1, way_);
       unknowns_.for_each(v_, way_, [dt](Real &v_i, const Real way_i) { v_i = way_i / Real(dt); });
-      take_back(1 / (dt * h)); // of the half that is not gone
+      step_.way *= kept;
     }
-    has_strain_ = false;
   }
 
   /// Takes from the reaction what the linear system has for a multiple of the way, but for inertia.
@@ -169,15 +197,22 @@ namespace softcell
     });
   }
 
-  /// Takes stiffness K + mass M as the matrix A, and multigrid for it: at rest, or at the
-  /// displacement where there is time and the last step took long.
+  /// Takes stiffness K + mass M as the matrix A, and multigrid for it: at rest at first. Where an
+  /// eigenvalue of multigrid times A is above 2, a V-cycle makes errors larger: where the last step
+  /// met one, cells are stiffer than multigrid knows, as squeezed ones are, and the finest grid
+  /// takes the displacement. All grids take it where the V-cycle was indefinite, or where there is
+  /// time and the last step took long.
   template <class Real>
   void LatticeMotion<Real>::combine(const Real stiffness, const Real mass, const bool has_time)
   {
     constexpr unsigned int many = 20; // iterations
     const bool is_new           = stiffness != stiffness_ || mass != mass_;
-    if (!is_new && !(has_time && step_.iterations > many))
+    if (!is_new && !(has_time && step_.iterations > many) && std::isfinite(largest_))
+    {
+      if (largest_ > 2)
+        multigrid_.set_finest_state(u_);
       return;
+    }
     stiffness_ = stiffness;
     mass_      = mass;
     tangent_.combine(stiffness, mass);
@@ -225,21 +260,21 @@ namespace softcell
     ++n_starts_;
   }
 
-  /// The last velocity w, and its change since the step before. Light nodes have no share in this:
-  /// what is wrong there weighs so little that few iterations leave it, and extrapolated it would
-  /// grow from step to step.
+  /// The last velocity w, into p, and its change since the step before. Light nodes have no share
+  /// in this: what is wrong there weighs so little that few iterations leave it, and extrapolated
+  /// it would grow from step to step.
   template <class Real>
   void LatticeMotion<Real>::prepare_starts(const LatticeVector<Real> &w)
   {
     n_starts_ = 0;
     p_        = w;
     unknowns_.hold(p_);
-    unknowns_.for_each(w_before_, p_, [](Real &w_i, const Real p_i) { w_i = p_i - w_i; });
+    z_ = p_;
+    add(z_, -1, w_before_);
     for (const std::size_t entry : light_)
-      w_before_.entries()[entry] = 0;
+      z_.entries()[entry] = 0;
     add_start(p_);
-    add_start(w_before_);
-    w_before_ = p_;
+    add_start(z_);
   }
 
   /// z = nearly A^-1 r, and their product.
@@ -250,12 +285,33 @@ namespace softcell
     return unknowns_.dot(z_, r_);
   }
 
-  /// Solves A w = r from w on and leaves in r what is missing, also in held entries.
+  /// Solves A w = b from w = v on and leaves in r what is missing, also in held entries.
   template <class Real>
-  void LatticeMotion<Real>::solve(const Effort &effort, LatticeVector<Real> &w)
+  void LatticeMotion<Real>::solve(const Effort &effort,
+                                  const LatticeVector<Real> &b,
+                                  LatticeVector<Real> &w)
   {
+    step_ = Step();
+    if (!attempt(effort, b, w) && parameters_.scheme == TimeScheme::newmark)
+    {
+      tangent_.elasticity().set_tangent(Tangent::definite);
+      w = v_;
+      attempt(effort, b, w);
+    }
+    throw_unless_finite(unknowns_.dot(w, w));
+    w_before_ = v_;
+    unknowns_.hold(w_before_);
+  }
+
+  /// @return whether the tangent is positive definite, for all that is known.
+  template <class Real>
+  bool LatticeMotion<Real>::attempt(const Effort &effort,
+                                    const LatticeVector<Real> &b,
+                                    LatticeVector<Real> &w)
+  {
+    r_ = b;
     prepare_starts(w);
-    add(w, -1, w_before_); // now what is imposed
+    add(w, -1, p_); // now what is imposed
     if (std::any_of(held_.begin(), held_.end(),
                     [&](const std::size_t entry) { return w.entries()[entry] != 0; }))
     {
@@ -270,46 +326,65 @@ namespace softcell
       add(w, share, starts_[k]);
       add(r_, -share, A_starts_[k]);
     }
-    step_ = iterate(effort, energy, w);
+    return iterate(effort, energy, w);
   }
 
+  /// @return whether no negative curvature was met.
   template <class Real>
-  typename LatticeMotion<Real>::Step
-  LatticeMotion<Real>::iterate(const Effort &effort, double energy, LatticeVector<Real> &w)
+  bool LatticeMotion<Real>::iterate(const Effort &effort, double energy, LatticeVector<Real> &w)
   {
     // beyond what the precision gives, conjugate gradients go astray
     const double tolerance =
       std::max<double>(effort.tolerance, 10 * std::numeric_limits<Real>::epsilon());
-    Step step;
-    double rz_before   = 1;
+    double rz_before = 1, length_before = 1;
+    largest_           = 0;
     auto begin         = Clock::now(); // of this iteration
     const auto is_time = [&] {
       const auto before = begin; // of the last one
       begin             = Clock::now();
-      return step.iterations == 0 || effort.deadline - after_solve_ - begin > begin - before;
+      return effort.deadline - after_solve_ - begin > begin - before;
     };
-    while (step.iterations < effort.max_iterations && is_time())
+    for (unsigned int n = 0; n < effort.max_iterations && (n == 0 || is_time()); ++n)
     {
       const double rz = precondition();
-      step.residual   = rz > 0 ? std::sqrt(rz / (energy + rz)) : 0;
-      if (step.residual <= tolerance)
-        return step;
-      const Real share = step.iterations > 0 ? rz / rz_before : 0.;
+      throw_unless_finite(rz);
+      step_.residual = rz > 0 ? std::sqrt(rz / (energy + rz)) : is_solved() ? 0 : 1;
+      if (step_.residual <= tolerance)
+        return true;
+      if (rz <= 0) // then the preconditioner is not definite
+      {
+        largest_ = std::numeric_limits<double>::infinity();
+        return true;
+      }
+      const Real share = n > 0 ? rz / rz_before : 0.;
       unknowns_.for_each(p_, z_, [share](Real &p_i, const Real z_i) { p_i = share * p_i + z_i; });
       for (unsigned int k = 0; k < n_starts_; ++k)
         add(p_, -Real(unknowns_.dot(A_starts_[k], z_)), starts_[k]);
       tangent_.product(Ap_, p_);
       const double curvature = unknowns_.dot(p_, Ap_);
-      if (!(curvature > 0)) // the tangent is indefinite
-        return step;
+      throw_unless_finite(curvature);
+      if (curvature <= 0)
+        return false;
+      // the diagonal of Lanczos' matrix
+      largest_          = std::max(largest_, curvature / rz + share / length_before);
       const Real length = rz / curvature;
+      length_before     = length;
       add(w, length, p_);
       add(r_, -length, Ap_);
       energy += rz * length;
       rz_before = rz;
-      ++step.iterations;
+      ++step_.iterations;
     }
-    return step;
+    return true;
+  }
+
+  /// Whether nothing is left in free unknowns.
+  template <class Real>
+  bool LatticeMotion<Real>::is_solved()
+  {
+    z_ = r_;
+    unknowns_.hold(z_);
+    return unknowns_.dot(z_, z_) == 0;
   }
 
   template class LatticeMotion<double>;

@@ -78,4 +78,28 @@ namespace
         << frame;
     }
   }
+
+  // A node is pushed in by more than two cells and kept there. Its cells are stiffer than at rest,
+  // which the preconditioner has to know.
+  TEST(HurriedMotion, StepsAreSolvedWhereCellsAreSqueezed)
+  {
+    const int n             = 8;
+    const CellLattice cells = cells_of("box", Point(0.1, 0.1, 0.1), n);
+    const std::size_t node = cells.nodes.entry(n / 2, n / 2, n), size = cells.nodes.size();
+    std::vector<std::size_t> held = entries_below(cells, 0.001);
+    for (unsigned int c = 0; c < dim; ++c)
+      held.push_back(c * size + node);
+    LatticeMotion<float> motion(cells, Material("Neo-Hookean", 5000, 0.45, 1000), held, {}, {});
+    const LatticeVector<float> nothing(cells.nodes);
+    LatticeVector<float> imposed = nothing;
+    for (unsigned int frame = 1; frame <= 20; ++frame)
+    {
+      imposed.entries()[2 * size + node] = -2.5 * cells.spacing[2] * std::min(frame / 10., 1.);
+      const double residual = motion.advance(1. / 60, nothing, imposed, {1e-6, 4}).residual;
+      if (frame > 18)
+      {
+        EXPECT_LT(residual, 0.01) << frame;
+      }
+    }
+  }
 } // namespace
