@@ -142,6 +142,9 @@ namespace softcell
       has_strain_          = false;
       const double energy  = strain() + kinetic_energy(),
                    allowed = before + work(external) - gained_;
+      if (!std::isfinite(energy))
+        u_ = start_;
+      throw_unless_finite(energy);
       if ((1 - margin) * energy <= allowed || n > most)
       {
         gained_ = std::max(energy - allowed, 0.);
