@@ -327,7 +327,8 @@ int main(int argc, char **argv)
   register_all<float>("float");
   for_each_body([](const std::string &name, const std::string &body, const int millions) {
     add("multigrid/" + name, [=](benchmark::State &state) {
-      multigrid(state, lattice(body, millions), {MatrixFreeSolver::smoother_degree, Tangent::exact, 1e-6});
+      multigrid(state, lattice(body, millions),
+                {MatrixFreeSolver::smoother_degree, Tangent::exact, 1e-6});
     });
     add("multigrid of the host/" + name,
         [=](benchmark::State &state) { multigrid_of_the_host(state, lattice(body, millions)); });
