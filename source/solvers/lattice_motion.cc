@@ -157,6 +157,8 @@ namespace softcell
       add(u_, 1, way_);
       unknowns_.for_each(v_, way_, [dt](Real &v_i, const Real way_i) { v_i = way_i / Real(dt); });
       step_.way *= kept;
+      if (kept == 0)
+        step_.residual = 1; // as nothing was done of what was asked for
     }
   }
 
