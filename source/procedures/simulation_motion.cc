@@ -245,11 +245,20 @@ namespace softcell
       Clock::duration forces_took_{}; // the tool's forces, in the last step
     };
 
-    double end_time(const Parameters &parameters)
+    /// @throws BadInput unless there is one at least, and as many as a number can count.
+    unsigned int n_steps(const Parameters &parameters)
     {
-      if (parameters.dynamics.end_time > 0)
-        return parameters.dynamics.end_time;
-      return RecordedPath(parameters.loads.path).end();
+      const double end = parameters.dynamics.end_time > 0
+                           ? parameters.dynamics.end_time
+                           : RecordedPath(parameters.loads.path).end(),
+                   n   = std::ceil(end * parameters.dynamics.steps_per_second - 1e-6);
+      if (n >= 1 && n <= std::numeric_limits<unsigned int>::max())
+        return n;
+      std::ostringstream text;
+      text << "Solver/Mode = dynamic would end at t = " << end << " s, after " << std::max(n, 0.)
+           << " steps; give another 'Dynamics/End time' in s"
+           << (parameters.dynamics.end_time > 0 ? "." : ", or later times in Loads/Path.");
+      throw BadInput(text.str());
     }
   } // namespace
 
@@ -272,7 +281,8 @@ namespace softcell
       throw BadInput(place + "goes on one grid; give 'Solver/Coarse grids = 0' and "
                              "'Discretization/Refinement steps = 0'.");
     if (parameters_.dynamics.end_time == 0 && parameters_.loads.path.empty())
-      throw BadInput(place + "has no end; give 'Dynamics/End time' in s.");
+      throw BadInput(place + "has no end; give 'Dynamics/End time' in s, or a Loads/Path.");
+    n_steps(parameters_);
     if (parameters_.loads.penalty != "automatic" &&
         Expression(parameters_.loads.penalty, 1, "Loads/Penalty").uses_time())
       throw BadInput(place + "knows no Loads/Penalty = '" + parameters_.loads.penalty +
@@ -303,8 +313,7 @@ namespace softcell
     const DynamicsParameters &dynamics = parameters_.dynamics;
     const double tolerance             = parameters_.linear_solver.tolerance;
     const unsigned int every           = parameters_.output.every;
-    const unsigned int n_frames =
-      std::lround(std::ceil(end_time(parameters_) * dynamics.steps_per_second - 1e-6));
+    const unsigned int n_frames        = n_steps(parameters_);
     Steps<Real> steps(parameters_, materials_[0], *loads_, *discretization_, displacement_);
     make_folder(folder.string());
     GrowingFile frames((folder / "frames.csv").string());

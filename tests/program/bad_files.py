@@ -27,6 +27,7 @@ def write_files(folder):
     def write(name, vertices, triangles):
         (folder / name).write_text(off(vertices, triangles))
 
+    (folder / "early.csv").write_text("-2,0,0,0\n-1,0,0,0\n")
     (folder / "back.csv").write_text("t,x,y,z\n1,0,0,0\n0.5,0,0,0\n")
     (folder / "names.csv").write_text("t,x,y,z\n")
     write("good.off", VERTICES, TRIANGLES)
