@@ -311,7 +311,8 @@ namespace softcell
   void Simulation::move(const std::filesystem::path &folder)
   {
     const DynamicsParameters &dynamics = parameters_.dynamics;
-    const double tolerance             = parameters_.linear_solver.tolerance;
+    const double tolerance             = std::max<double>(parameters_.linear_solver.tolerance,
+                                              10 * std::numeric_limits<Real>::epsilon());
     const unsigned int every           = parameters_.output.every;
     const unsigned int n_frames        = n_steps(parameters_);
     Steps<Real> steps(parameters_, materials_[0], *loads_, *discretization_, displacement_);

@@ -253,7 +253,8 @@ namespace softcell
   {
     if (levels_.size() == 1) // its inverse is that of set_state()
       return;
-    levels_[0]->tangent.elasticity().set_state(u, Tangent::definite);
+    smoother_ = Tangent::definite;
+    levels_[0]->tangent.elasticity().set_state(u, smoother_);
     levels_[0]->tangent.inverse_diagonal(levels_[0]->inverse_diagonal);
   }
 

@@ -17,7 +17,7 @@ namespace softcell
     {
       if (!std::isfinite(number))
         throw NotConverged("a step in time met displacements, velocities or forces that are not "
-                           "finite numbers; give smaller loads or a slower motion");
+                           "finite numbers");
     }
   } // namespace
 
@@ -142,12 +142,13 @@ namespace softcell
       has_strain_          = false;
       const double energy  = strain() + kinetic_energy(),
                    allowed = before + work(external) - gained_;
-      if (!std::isfinite(energy))
+      if (!std::isfinite(energy + allowed))
         u_ = start_;
-      throw_unless_finite(energy);
+      throw_unless_finite(energy + allowed);
       if ((1 - margin) * energy <= allowed || n > most)
       {
-        gained_ = std::max(energy - allowed, 0.);
+        // no more than lets a body that stays where it is move again
+        gained_ = std::min(std::max(energy - allowed, 0.), margin * energy);
         return;
       }
       const Real kept = n < most ? 0.5 : 0;

@@ -41,6 +41,7 @@ namespace softcell
     void combine(Real stiffness, Real mass);
 
     /// Takes the displacement at which the tangents are formed, and the supports' tangent.
+    /// @param smoother  see set_smoother().
     /// @throws InvertedPoint, or NotConverged if a grid's tangent is not positive definite
     void set_state(const LatticeVector<Real> &u,
                    LatticeMatrix<Real> supports = {},

@@ -21,15 +21,16 @@ namespace softcell
 
   /// Displacement and velocity of a body, and their steps in time.
   ///
-  /// Steps solve by conjugate gradients with multigrid for the body at rest, which stop where they
-  /// are when time is over. They begin with the best combination of the last velocity and its last
-  /// change, which often is within some percent of the solution, and keep conjugate to both what
-  /// follows, so that after any number of iterations w (A w - b) = 0 but for what is imposed, see
-  /// advance(): few iterations cannot raise the energy. Where the law's own energy rises above what
-  /// is put in, the way of the step is halved, up to ten times, or not gone at all, and what is
-  /// imposed comes late. All steps together gain no more than a twentieth of the energy in this
-  /// way. Implicit Euler uses Tangent::definite, it is of first order with any; Newmark's method
-  /// uses it in steps in which conjugate gradients meet negative curvature of the exact tangent.
+  /// Steps solve by conjugate gradients with multigrid, at first for the body at rest, which
+  /// stop where they are when time is over. They begin with the best combination of the last
+  /// velocity and its last change, which often is within some percent of the solution, and keep
+  /// conjugate to both what follows, so that after any number of iterations w (A w - b) = 0 but for
+  /// what is imposed, see advance(): few iterations cannot raise the energy. Where the law's own
+  /// energy rises above what is put in, the way of the step is halved, up to ten times, or not gone
+  /// at all, and what is imposed comes late. All steps together gain no more than a twentieth of
+  /// the energy in this way. Implicit Euler uses Tangent::definite, it is of first order with any;
+  /// Newmark's method uses it in steps in which conjugate gradients meet negative curvature of the
+  /// exact tangent.
   template <class Real>
   class LatticeMotion
   {
@@ -49,7 +50,8 @@ namespace softcell
     {
       unsigned int iterations = 0; // with those that met negative curvature
       double residual         = 1; // about what w misses in the energy norm, relative; before the
-                                   // last iteration, if the end was not the tolerance
+                                   // last iteration, if the end was not the tolerance; 1 where
+                                   // nothing of the way was gone
       double way = 1; // the part of it that was gone; what is imposed comes late below 1
     };
 
@@ -76,6 +78,7 @@ namespace softcell
     LatticeVector<Real> &displacement()
     {
       has_strain_ = false;
+      gained_     = 0;
       return u_;
     }
     const LatticeVector<Real> &displacement() const
