@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Files that are to be read, and text files written so that a reader never sees half of one.
+// Files that are to be read, and text files of which a reader never sees half, or half a line.
 #pragma once
 
 #include <fstream>
